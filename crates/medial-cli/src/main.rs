@@ -1,0 +1,2 @@
+//! The command `medial`.
+fn main() {}

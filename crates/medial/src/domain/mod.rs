@@ -1,0 +1,5 @@
+//! The shape: rings of doubles, validated once, as boundary walks with the interior on the left.
+
+mod walks;
+
+pub use walks::{Corner, Domain, Edge, Origin, Site, Walk};

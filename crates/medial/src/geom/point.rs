@@ -1,0 +1,104 @@
+use std::ops::{Add, Mul, Neg, Sub};
+
+/// A point or a vector of the plane.
+///
+/// ```
+/// use medial::geom::Point;
+/// assert_eq!(Point::new(3.0, 4.0).dot(Point::new(3.0, 4.0)), 25.0);
+/// ```
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Point {
+    /// Abscissa, in units of the input.
+    pub x: f64,
+    /// Ordinate, in units of the input.
+    pub y: f64,
+}
+
+impl Point {
+    /// The point with the given coordinates.
+    #[inline]
+    #[must_use]
+    pub const fn new(x: f64, y: f64) -> Self {
+        Self { x, y }
+    }
+
+    /// The scalar product, rounded.
+    #[inline]
+    #[must_use]
+    pub fn dot(self, other: Self) -> f64 {
+        self.x * other.x + self.y * other.y
+    }
+
+    /// The third component of the cross product, rounded: positive when `other` lies to the left.
+    #[inline]
+    #[must_use]
+    pub fn cross(self, other: Self) -> f64 {
+        self.x * other.y - self.y * other.x
+    }
+
+    /// The vector turned by a quarter turn to the left.
+    #[inline]
+    #[must_use]
+    pub fn perp(self) -> Self {
+        Self::new(-self.y, self.x)
+    }
+
+    /// The squared length, rounded.
+    #[inline]
+    #[must_use]
+    pub fn norm2(self) -> f64 {
+        self.dot(self)
+    }
+
+    /// The length, rounded. Uses `sqrt` only, so it is the same on every platform.
+    #[inline]
+    #[must_use]
+    pub fn norm(self) -> f64 {
+        self.norm2().sqrt()
+    }
+
+    /// Orders by x, then by y.
+    ///
+    /// # Panics
+    /// Never on finite coordinates.
+    #[inline]
+    #[must_use]
+    pub fn lexicographic(self, other: Self) -> std::cmp::Ordering {
+        self.x
+            .partial_cmp(&other.x)
+            .and_then(|o| self.y.partial_cmp(&other.y).map(|p| o.then(p)))
+            .unwrap_or(std::cmp::Ordering::Equal)
+    }
+}
+
+impl Add for Point {
+    type Output = Self;
+    #[inline]
+    fn add(self, other: Self) -> Self {
+        Self::new(self.x + other.x, self.y + other.y)
+    }
+}
+
+impl Sub for Point {
+    type Output = Self;
+    #[inline]
+    fn sub(self, other: Self) -> Self {
+        Self::new(self.x - other.x, self.y - other.y)
+    }
+}
+
+impl Mul<f64> for Point {
+    type Output = Self;
+    #[inline]
+    fn mul(self, factor: f64) -> Self {
+        Self::new(self.x * factor, self.y * factor)
+    }
+}
+
+impl Neg for Point {
+    type Output = Self;
+    #[inline]
+    fn neg(self) -> Self {
+        Self::new(-self.x, -self.y)
+    }
+}
