@@ -2,4 +2,4 @@
 
 mod walks;
 
-pub use walks::{Corner, Domain, Edge, Origin, Site, Walk};
+pub use walks::{Corner, CornerOrigin, Domain, Edge, Origin, Site, Walk};

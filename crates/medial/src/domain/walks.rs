@@ -59,9 +59,21 @@ pub struct Origin {
     pub index: u32,
     /// Piece of an edge split by touching corners, counted in input direction; 0 if unsplit.
     pub part: u32,
-    /// Position in its ring as given of the corner at the start of the edge, and the ring of the
-    /// corner's incoming edge, by which a wedge between two rings is named.
-    pub corner: (u32, u32),
+    /// Name of the corner at the start of the edge.
+    pub corner: CornerOrigin,
+}
+
+/// Where a corner comes from: a wedge between two rings is named by the ring of its incoming edge.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct CornerOrigin {
+    /// Ring of the incoming edge.
+    pub ring: u32,
+    /// Position of the corner in that ring as given; where the ring has no vertex there because
+    /// another one touches its edge, the index of that edge.
+    pub index: u32,
+    /// 0, or, where another ring touches an edge of this one, which touch it is along that edge,
+    /// counted from 1 in input direction.
+    pub part: u32,
 }
 
 /// An edge of the boundary, directed so that the interior lies to its left. 64 bytes.
