@@ -1,0 +1,24 @@
+use crate::geom::Point;
+
+/// Why an engine gave no axis.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum EngineError {
+    /// An invariant of the engine broke: a fault of ours, never of the input.
+    #[error(
+        "internal error while {stage} near ({}, {}); please report it with this shape",
+        place.x, place.y
+    )]
+    Internal {
+        /// What the engine was doing.
+        stage: &'static str,
+        /// Where.
+        place: Point,
+    },
+    /// The domain has too many edges for 32-bit numbers.
+    #[error("{n_edges} edges are too many; split the feature")]
+    TooLarge {
+        /// Edges of the domain.
+        n_edges: usize,
+    },
+}

@@ -1,0 +1,104 @@
+use std::cmp::Ordering;
+
+use crate::domain::{Corner, Domain, Site};
+use crate::geom::predicates::ExactDisk;
+use crate::geom::{Point, TouchingDisk};
+
+/// Angles of footpoints closer than this, in radians, are ordered exactly.
+///
+/// Their own error is at most the disk's bound over its radius, far below in all but the worst
+/// of cases, where the bound takes its place.
+const CLEAR_ANGLE: f64 = 1e-6;
+
+/// Sorts contacts counterclockwise by footpoint and drops repetitions.
+pub(super) fn sort(
+    domain: &Domain,
+    disk: &TouchingDisk,
+    exact: Option<&ExactDisk>,
+    triple: &[Site; 3],
+    contacts: &mut Vec<Site>,
+) {
+    if contacts.len() == 3 && contacts == triple {
+        // Certified in this order.
+        return;
+    }
+    contacts.sort_unstable();
+    contacts.dedup();
+    let mut by_angle: Vec<(f64, Site)> =
+        contacts.iter().map(|&s| (angle(domain, disk, s), s)).collect();
+    by_angle.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+    // Cut the circle at its widest gap, so that no doubtful pair is torn apart.
+    let n = by_angle.len();
+    let gap = |k: usize| {
+        let turn = if k == 0 { std::f64::consts::TAU } else { 0.0 };
+        by_angle[k].0 + turn - by_angle[(k + n - 1) % n].0
+    };
+    let first = (0..n).max_by(|&a, &b| gap(a).total_cmp(&gap(b))).unwrap_or(0);
+    by_angle.rotate_left(first);
+    let clear = CLEAR_ANGLE.max(4.0 * disk.bound / disk.radius);
+    let mut start = 0;
+    while start < n {
+        let mut end = start + 1;
+        while end < n {
+            let step = (by_angle[end].0 - by_angle[end - 1].0).rem_euclid(std::f64::consts::TAU);
+            if step > clear {
+                break;
+            }
+            end += 1;
+        }
+        by_angle[start..end].sort_by(|a, b| exact_order(domain, exact, a.1, b.1));
+        start = end;
+    }
+    contacts.clear();
+    contacts.extend(by_angle.iter().map(|&(_, s)| s));
+}
+
+fn angle(domain: &Domain, disk: &TouchingDisk, site: Site) -> f64 {
+    let edge = domain.edge(site.index());
+    let foot = if site.is_edge() {
+        -edge.direction.perp()
+    } else {
+        (edge.start - disk.origin) - disk.centre
+    };
+    foot.y.atan2(foot.x)
+}
+
+/// The counterclockwise order of two contacts less than half a turn apart.
+fn exact_order(domain: &Domain, exact: Option<&ExactDisk>, a: Site, b: Site) -> Ordering {
+    if follows(domain, a, b) {
+        return Ordering::Less;
+    }
+    if follows(domain, b, a) {
+        return Ordering::Greater;
+    }
+    if a == b {
+        return Ordering::Equal;
+    }
+    let Some(disk) = exact else { return a.cmp(&b) };
+    let ends = |s: Site| (domain.edge(s.index()).start, domain.end(s.index()));
+    let ((pa, qa), (pb, qb)) = (ends(a), ends(b));
+    // Positive: `b` comes after `a`.
+    let turn = match (a.is_edge(), b.is_edge()) {
+        (true, true) => direction_turn(pa, qa, pb, qb),
+        (true, false) => disk.along(pa, qa, pb).reverse(),
+        (false, true) => disk.along(pb, qb, pa),
+        (false, false) => disk.orientation(pa, pb),
+    };
+    turn.reverse()
+}
+
+/// The sign of `(qa - pa) × (qb - pb)`, exactly.
+fn direction_turn(pa: Point, qa: Point, pb: Point, qb: Point) -> Ordering {
+    crate::geom::direction_cross(pa, qa, pb, qb)
+}
+
+/// Whether `b` comes directly after `a` along the boundary.
+pub(super) fn follows(domain: &Domain, a: Site, b: Site) -> bool {
+    let next = if a.is_edge() { domain.edge(a.index()).next } else { a.index() };
+    if a.is_edge() {
+        b == Site::corner(next)
+            || (b == Site::edge(next) && domain.edge(next).corner == Corner::Straight)
+    } else {
+        b == Site::edge(next)
+    }
+}

@@ -1,0 +1,465 @@
+//! Finds where a path ends: the nearest empty disk along the bisector of its governors.
+//!
+//! Doubles propose third governors; a certified disk, or where that is undecided the exact one,
+//! disposes. An empty disk that touches right governor, third governor and left governor in
+//! counterclockwise order is a keypoint however it was proposed, and the next one on the path
+//! unless a whole ring lies between its disk and the one at the start ([`super::rings`]).
+
+use std::cmp::Ordering;
+
+use super::course::Course;
+use super::rings::HiddenRings;
+use super::touch::{Touch, touch};
+use super::verify::{Verify, Verdict};
+use crate::domain::{Corner, Domain, Site};
+use crate::engine::EngineError;
+use crate::geom::predicates::ExactDisk;
+use crate::geom::{BoundsTree, Governor, Point, Rect, TouchingDisk};
+
+/// A third governor that was tried, with its disk.
+#[derive(Clone, Copy, Debug)]
+pub struct Candidate {
+    /// Site that would become the third governor.
+    pub site: Site,
+    /// Centre of the disk that touches it and both governors of the path.
+    pub centre: Point,
+    /// Radius of that disk.
+    pub radius: f64,
+}
+
+/// Where a path starts.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Start {
+    pub centre: Point,
+    pub radius: f64,
+    /// Governors whose exact disk this is; `None` at a convex corner.
+    pub triple: Option<[Site; 3]>,
+}
+
+/// Where a path ends.
+#[derive(Clone, Debug)]
+pub(super) enum Found {
+    /// In the convex corner at the start of this edge.
+    Corner(u32),
+    /// At a keypoint: its disk, three sites that define it, and all its governors in
+    /// counterclockwise order.
+    Disk { disk: TouchingDisk, triple: [Site; 3], contacts: Vec<Site> },
+}
+
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Proposal {
+    pub site: Site,
+    pub disk: TouchingDisk,
+    pub position: f64,
+}
+
+/// The path whose end is looked for.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Gap {
+    pub right: Site,
+    pub left: Site,
+    pub start: Start,
+    pub course: Course,
+    /// Position of the start along the course.
+    pub position: f64,
+}
+
+/// Tries before only exact arithmetic proposes.
+const FLOATING_TRIES: usize = 48;
+
+/// Looks for ends of paths in one polygon of a domain.
+pub(super) struct Search<'a> {
+    pub domain: &'a Domain,
+    pub tree: BoundsTree,
+    rings: Option<HiddenRings>,
+    banned: Vec<Site>,
+    /// What was tried for the last path, for those who watch.
+    pub tried: Vec<Candidate>,
+}
+
+impl<'a> Search<'a> {
+    /// Prepares the search in the polygon whose walks have the given numbers.
+    pub fn new(domain: &'a Domain, walks: std::ops::Range<usize>) -> Self {
+        let first = domain.walks()[walks.start].first;
+        let n: u32 = domain.walks()[walks.clone()].iter().map(|w| w.len).sum();
+        let tree = BoundsTree::new(first, n, |k| {
+            Rect::EMPTY.with(domain.edge(k).start).with(domain.end(k))
+        });
+        let rings = HiddenRings::new(domain, walks);
+        Self { domain, tree, rings, banned: Vec::new(), tried: Vec::new() }
+    }
+
+    /// The end of the path that leaves `start` between `right` and `left`.
+    pub fn find(&mut self, right: Site, left: Site, start: Start) -> Result<Found, EngineError> {
+        self.tried.clear();
+        self.banned.clear();
+        let course = Course::new(self.domain.governor(right), self.domain.governor(left));
+        let here = TouchingDisk {
+            origin: start.centre,
+            centre: Point::default(),
+            radius: start.radius,
+            bound: 0.0,
+        };
+        let gap = Gap { right, left, start, course, position: course.position(&here) };
+        let mut found = if self.runs_into_corner(&gap) {
+            Found::Corner(left.index())
+        } else {
+            let first = self.first_proposal(&gap);
+            self.settle(&gap, first)?
+        };
+        loop {
+            if let Found::Disk { contacts, .. } = &found
+                && let Some(behind) = contact_behind(contacts, right, left)
+            {
+                // A whole ring lies on the path and touches the disk from behind.
+                let behind: Vec<Site> = behind.collect();
+                let site = self.exact_first(&gap, &behind).ok_or_else(|| self.broken(&gap))?;
+                let next = self.proposal_or_exact(&gap, site);
+                found = self.settle(&gap, next)?;
+                continue;
+            }
+            let Some(rings) = &self.rings else { return Ok(found) };
+            let suspects = rings.suspects(self.domain, &gap, &found);
+            let hidden: Vec<Site> =
+                suspects.into_iter().filter(|&s| self.is_between(&gap, s, &found)).collect();
+            if hidden.is_empty() {
+                return Ok(found);
+            }
+            let site = self.exact_first(&gap, &hidden).ok_or_else(|| self.broken(&gap))?;
+            self.banned.clear();
+            let next = self.proposal_or_exact(&gap, site);
+            found = self.settle(&gap, next)?;
+        }
+    }
+
+    fn broken(&self, gap: &Gap) -> EngineError {
+        EngineError::Internal { stage: "tracing a path", place: gap.start.centre }
+    }
+
+    /// Whether the path ends in the convex corner between its two governors.
+    fn runs_into_corner(&self, gap: &Gap) -> bool {
+        let (right, left) = (gap.right, gap.left);
+        right.is_edge()
+            && left.is_edge()
+            && self.domain.edge(right.index()).next == left.index()
+            && self.domain.edge(left.index()).corner == Corner::Convex
+    }
+
+    /// The disk that would make `site` the third governor, if doubles find one ahead.
+    pub fn propose(&self, gap: &Gap, site: Site) -> Option<Proposal> {
+        if site == gap.right || site == gap.left || self.banned.contains(&site) {
+            return None;
+        }
+        let governors = self.triple(gap, site).map(|s| self.domain.governor(s));
+        let disk = TouchingDisk::guess(&governors, gap.start.centre)?;
+        if let Governor::Edge { start, end, direction } = governors[1] {
+            let x = direction.dot(disk.centre + (disk.origin - start));
+            let back = direction.dot(disk.centre + (disk.origin - end));
+            let slack = 1e-9 * disk.radius;
+            if x < -slack || back > slack {
+                return None;
+            }
+        }
+        let position = gap.course.position(&disk);
+        let slack = 1e-9 * (disk.radius + gap.start.radius) + 1e-13 * position.abs();
+        (position >= gap.position - slack).then_some(Proposal { site, disk, position })
+    }
+
+    fn triple(&self, gap: &Gap, site: Site) -> [Site; 3] {
+        [gap.right, site, gap.left]
+    }
+
+    /// The best of the proposals that the boundary itself makes: each governor's neighbour, and
+    /// what a growing probe meets before it.
+    fn first_proposal(&mut self, gap: &Gap) -> Option<Proposal> {
+        let domain = self.domain;
+        let mut best: Option<Proposal> = None;
+        for site in [domain.ahead(gap.right), domain.behind(gap.left)] {
+            if let Some(p) = self.propose(gap, site)
+                && best.is_none_or(|b| p.position < b.position)
+            {
+                best = Some(p);
+            }
+        }
+        self.probe(gap, best)
+    }
+
+    /// Grows a disk along the path until it meets something or passes `best`.
+    fn probe(&mut self, gap: &Gap, best: Option<Proposal>) -> Option<Proposal> {
+        let shorter = |a: f64, b: Option<f64>| b.map_or(a, |b| a.min(b));
+        let length = |s: Site| s.is_edge().then(|| self.domain.edge(s.index()).length);
+        let mut reach = if gap.start.radius > 0.0 {
+            2.0 * gap.start.radius
+        } else {
+            shorter(length(gap.right).unwrap_or(1.0), length(gap.left)) / 2.0
+        };
+        // Doubling exponents end long before this.
+        for _ in 0..1100 {
+            let position = gap.position + reach;
+            if best.is_some_and(|b| b.position <= position + reach) || !position.is_finite() {
+                break;
+            }
+            let Some(disk) = gap.course.disk_at(position) else { break };
+            let mut verify = Verify::hunting(self, gap, disk, position);
+            verify.run();
+            if let Some(hit) = verify.best() {
+                return Some(hit);
+            }
+            reach *= 4.0;
+        }
+        best
+    }
+
+    /// From a first proposal to the verified end of the path.
+    fn settle(&mut self, gap: &Gap, first: Option<Proposal>) -> Result<Found, EngineError> {
+        let mut best = first;
+        // Sites seen to cut a disk, or to stand at the end of a governor.
+        let mut seen: Vec<Site> = Vec::new();
+        for round in 0..100_000_usize {
+            let Some(proposal) = best else {
+                best = self.last_resort(gap, &mut seen, round)?;
+                continue;
+            };
+            let triple = self.triple(gap, proposal.site);
+            self.tried.push(Candidate {
+                site: proposal.site,
+                centre: proposal.disk.position(),
+                radius: proposal.disk.radius,
+            });
+            let Some((disk, exact)) = self.certify(&triple, &proposal.disk) else {
+                self.banned.push(proposal.site);
+                seen.retain(|&s| s != proposal.site);
+                best = None;
+                continue;
+            };
+            let floating = round < FLOATING_TRIES;
+            let position = gap.course.position(&disk);
+            let mut verify = Verify::certified(self, gap, triple, disk, position, floating);
+            verify.run();
+            let verdict = verify.verdict(exact);
+            match verdict {
+                Verdict::Better(next) => best = Some(next),
+                Verdict::Cut(sites) => {
+                    best = None;
+                    let cutting = sites.iter().find_map(|&s| {
+                        (floating && s != proposal.site).then(|| self.propose(gap, s)).flatten()
+                    });
+                    for s in sites {
+                        if !seen.contains(&s) {
+                            seen.push(s);
+                        }
+                    }
+                    if let Some(next) = cutting
+                        && next.position < position
+                    {
+                        best = Some(next);
+                    }
+                }
+                Verdict::OffEdge => {
+                    // The third governor's line is touched beyond its end.
+                    self.banned.push(proposal.site);
+                    seen.retain(|&s| s != proposal.site);
+                    best = None;
+                    if proposal.site.is_edge() {
+                        let k = proposal.site.index();
+                        for s in [self.domain.ahead(Site::edge(k)), self.domain.behind(Site::edge(k))]
+                        {
+                            if !seen.contains(&s) && !self.banned.contains(&s) {
+                                seen.push(s);
+                            }
+                        }
+                    }
+                }
+                Verdict::Clear(contacts) => {
+                    if self.rings.is_some() && !self.is_ahead(gap, &disk, &triple) {
+                        self.banned.push(proposal.site);
+                        seen.retain(|&s| s != proposal.site);
+                        best = None;
+                        continue;
+                    }
+                    return Ok(Found::Disk { disk, triple, contacts });
+                }
+            }
+        }
+        Err(self.broken(gap))
+    }
+
+    /// Exact arithmetic over all sites near the path, farther out with every round.
+    fn last_resort(
+        &mut self,
+        gap: &Gap,
+        seen: &mut Vec<Site>,
+        round: usize,
+    ) -> Result<Option<Proposal>, EngineError> {
+        for site in [self.domain.ahead(gap.right), self.domain.behind(gap.left)] {
+            if !seen.contains(&site) && !self.banned.contains(&site) {
+                seen.push(site);
+            }
+        }
+        if let Some(site) = self.exact_first(gap, seen) {
+            return Ok(self.proposal_or_exact(gap, site));
+        }
+        // Nothing that was met will do: take in everything, however far.
+        let everything = 2 * self.domain.edges().len();
+        if seen.len() >= everything || round > 1000 {
+            return Err(self.broken(gap));
+        }
+        let edges = self.tree.items();
+        seen.clear();
+        for k in edges {
+            for s in [Site::corner(k), Site::edge(k)] {
+                let is_site = s.is_edge() || self.domain.edge(k).corner != Corner::Convex;
+                if is_site && !self.banned.contains(&s) {
+                    seen.push(s);
+                }
+            }
+        }
+        match self.exact_first(gap, seen) {
+            Some(site) => Ok(self.proposal_or_exact(gap, site)),
+            None => Err(self.broken(gap)),
+        }
+    }
+
+    /// The certified disk of a triple, and the exact one where doubles would not certify.
+    fn certify(
+        &self,
+        triple: &[Site; 3],
+        guess: &TouchingDisk,
+    ) -> Option<(TouchingDisk, Option<ExactDisk>)> {
+        let governors = triple.map(|s| self.domain.governor(s));
+        if let Some(disk) = guess.certified(&governors) {
+            return Some((disk, None));
+        }
+        let exact = self.exact(triple)?;
+        let disk = rounded(&exact, guess.origin);
+        Some((disk, Some(exact)))
+    }
+
+    pub fn exact(&self, triple: &[Site; 3]) -> Option<ExactDisk> {
+        ExactDisk::new(triple.map(|s| self.domain.element(s)))
+    }
+
+    fn proposal_or_exact(&self, gap: &Gap, site: Site) -> Option<Proposal> {
+        let triple = self.triple(gap, site);
+        let exact = self.exact(&triple)?;
+        let disk = rounded(&exact, self.domain.edge(site.index()).start);
+        Some(Proposal { site, disk, position: gap.course.position(&disk) })
+    }
+
+    /// Of some sites the one whose exact disk comes first on the path, ahead of the start.
+    fn exact_first(&self, gap: &Gap, sites: &[Site]) -> Option<Site> {
+        let start = gap.start.triple.and_then(|t| self.exact(&t));
+        let mut first: Option<(Site, ExactDisk)> = None;
+        for &site in sites {
+            if site == gap.right || site == gap.left || self.banned.contains(&site) {
+                continue;
+            }
+            let Some(disk) = self.exact(&self.triple(gap, site)) else { continue };
+            let in_zones = [gap.right, site, gap.left].iter().all(|&s| self.in_zone(&disk, s));
+            if !in_zones {
+                continue;
+            }
+            if let Some(start) = &start
+                && self.along_path(gap, start, &disk) != Ordering::Less
+            {
+                continue;
+            }
+            let nearer = first
+                .as_ref()
+                .is_none_or(|(_, f)| self.along_path(gap, &disk, f) == Ordering::Less);
+            if nearer {
+                first = Some((site, disk));
+            }
+        }
+        first.map(|(site, _)| site)
+    }
+
+    /// Whether a disk touches a site within the site's zone.
+    fn in_zone(&self, disk: &ExactDisk, site: Site) -> bool {
+        let edge = self.domain.edge(site.index());
+        let (a, b) = (edge.start, self.domain.end(site.index()));
+        if site.is_edge() {
+            disk.along(a, b, a) != Ordering::Less && disk.along(a, b, b) != Ordering::Greater
+        } else {
+            let before = self.domain.edge(edge.prev).start;
+            disk.along(before, a, a) != Ordering::Less && disk.along(a, b, a) != Ordering::Greater
+        }
+    }
+
+    /// Orders two exact disks of the path along it.
+    fn along_path(&self, gap: &Gap, first: &ExactDisk, second: &ExactDisk) -> Ordering {
+        let ends = |s: Site| (self.domain.edge(s.index()).start, self.domain.end(s.index()));
+        if gap.right.is_edge() {
+            let (a, b) = ends(gap.right);
+            first.compare_along(second, a, b)
+        } else if gap.left.is_edge() {
+            let (a, b) = ends(gap.left);
+            first.compare_along(second, b, a)
+        } else {
+            // Forwards is a quarter turn to the right of the vector between the corners.
+            let (p, q) = (ends(gap.right).0, ends(gap.left).0);
+            first.compare_along(second, Point::new(p.y, q.x), Point::new(q.y, p.x))
+        }
+    }
+
+    /// Whether a verified disk lies ahead of the start; needed only where rings may hide.
+    fn is_ahead(&self, gap: &Gap, disk: &TouchingDisk, triple: &[Site; 3]) -> bool {
+        let Some(start) = gap.start.triple else { return true };
+        let position = gap.course.position(disk);
+        let doubt = 1e-6 * (disk.radius + gap.start.radius) + 1e-9 * position.abs();
+        if position > gap.position + doubt {
+            return true;
+        }
+        match (self.exact(&start), self.exact(triple)) {
+            (Some(a), Some(b)) => self.along_path(gap, &a, &b) == Ordering::Less,
+            _ => false,
+        }
+    }
+
+    /// Whether the disk through a corner of a whole ring lies between start and end of a path.
+    fn is_between(&self, gap: &Gap, site: Site, found: &Found) -> bool {
+        let Some(disk) = self.exact(&self.triple(gap, site)) else { return false };
+        if let Some(start) = gap.start.triple.and_then(|t| self.exact(&t))
+            && self.along_path(gap, &start, &disk) != Ordering::Less
+        {
+            return false;
+        }
+        match found {
+            Found::Corner(_) => true,
+            Found::Disk { triple, .. } => self
+                .exact(triple)
+                .is_some_and(|end| self.along_path(gap, &disk, &end) == Ordering::Less),
+        }
+    }
+
+    /// What an edge is to an exact disk; the governors themselves are not asked.
+    pub fn touch(&self, disk: &ExactDisk, edge: u32) -> Touch {
+        touch(self.domain, disk, edge)
+    }
+}
+
+/// Doubles for an exact disk, within two ulp.
+fn rounded(exact: &ExactDisk, origin: Point) -> TouchingDisk {
+    let (position, radius) = exact.approximate();
+    let centre = position - origin;
+    let scale = position.x.abs().max(position.y.abs()).max(radius);
+    let size = centre.x.abs().max(centre.y.abs());
+    TouchingDisk { origin, centre, radius, bound: 2.0 * f64::EPSILON * (scale + size) }
+}
+
+/// Contacts strictly between the left and the right governor at the back of an arriving path.
+fn contact_behind(
+    contacts: &[Site],
+    right: Site,
+    left: Site,
+) -> Option<impl Iterator<Item = Site>> {
+    let n = contacts.len();
+    let at = |s: Site| contacts.iter().position(|&c| c == s);
+    let (l, r) = (at(left)?, at(right)?);
+    let between = (r + n - l) % n;
+    // Directly after the left governor comes the right one, or pieces of the same contact run.
+    (between > 1).then(|| {
+        let list: Vec<Site> = (1..between).map(|k| contacts[(l + k) % n]).collect();
+        list.into_iter()
+    })
+}

@@ -1,0 +1,75 @@
+use std::cmp::Ordering::{Equal, Greater, Less};
+
+use crate::domain::{Corner, Domain, Site};
+use crate::geom::Point;
+use crate::geom::predicates::{Element, ExactDisk};
+
+/// What an edge, with its ends, is to a disk.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Touch {
+    /// Outside, or seen from behind.
+    Clear,
+    /// The disk is cut.
+    Cut,
+    /// The disk is touched by the edge, by the reflex corner at one of its ends, or by both.
+    Contact {
+        /// The edge touches, perhaps at its end.
+        edge: bool,
+        /// A reflex corner touches.
+        corner: Option<Site>,
+    },
+}
+
+/// Decides exactly what edge number `edge` and its two corners are to a disk.
+pub(super) fn touch(domain: &Domain, disk: &ExactDisk, edge: u32) -> Touch {
+    let (a, b) = (domain.edge(edge).start, domain.end(edge));
+    let from_start = disk.along(a, b, a);
+    if from_start != Greater {
+        return touch_end(domain, disk, edge, a, edge, from_start == Equal);
+    }
+    let from_end = disk.along(a, b, b);
+    if from_end != Less {
+        return touch_end(domain, disk, edge, b, domain.edge(edge).next, from_end == Equal);
+    }
+    match disk.front(a, b) {
+        // What lies between the centre and the back of an edge is asked itself.
+        Less => Touch::Clear,
+        Equal => Touch::Cut,
+        Greater => match disk.side(Element::Edge(a, b)) {
+            Less => Touch::Cut,
+            Equal => Touch::Contact { edge: true, corner: None },
+            Greater => Touch::Clear,
+        },
+    }
+}
+
+/// The nearest point of the edge is its end `p`, the corner at the start of edge `corner`.
+fn touch_end(
+    domain: &Domain,
+    disk: &ExactDisk,
+    edge: u32,
+    p: Point,
+    corner: u32,
+    on_normal: bool,
+) -> Touch {
+    match disk.side(Element::Corner(p)) {
+        Less => Touch::Cut,
+        Greater => Touch::Clear,
+        Equal => {
+            let (a, b) = (domain.edge(edge).start, domain.end(edge));
+            let edge = on_normal && disk.front(a, b) == Greater;
+            let reflex = domain.edge(corner).corner == Corner::Reflex;
+            let corner = (reflex && in_corner_zone(domain, disk, corner))
+                .then_some(Site::corner(corner));
+            if edge || corner.is_some() { Touch::Contact { edge, corner } } else { Touch::Clear }
+        }
+    }
+}
+
+/// Whether the centre lies between the normals of the corner at the start of edge `corner`.
+pub(super) fn in_corner_zone(domain: &Domain, disk: &ExactDisk, corner: u32) -> bool {
+    let edge = domain.edge(corner);
+    let (before, at, after) =
+        (domain.edge(edge.prev).start, edge.start, domain.end(corner));
+    disk.along(before, at, at) != Less && disk.along(at, after, at) != Greater
+}

@@ -1,0 +1,427 @@
+//! Disks that touch three boundary elements, in doubles, with a certified bound on their error.
+//!
+//! # Contract
+//! [`TouchingDisk::guess`] is fast and may be wrong. [`TouchingDisk::certified`] carries `bound`:
+//! exactly one disk near it touches the three elements, in the order given, and
+//! `|w·(c* - c) - (r* - r)| <= bound` for every unit vector `w`.
+//!
+//! # Method
+//! 1. A closed form that is stable for each combination of corners and edges gives a start.
+//! 2. Newton steps on the three residuals `distance - r`, relative to a corner of a governor.
+//! 3. With normals `n_i`, `D = (n2 - n1) × (n3 - n1) > 0` proves the order of the contacts, and
+//!    `(2/D) Σ |n_j - n_k| (|ρ_i| + ε_i)` bounds the error, because any unit vector is an affine
+//!    combination of the normals with weights of at most `2|n_j - n_k| / D`.
+//! 4. Where a corner is an end of a touched edge two normals agree; then the centre is put on the
+//!    normal of that edge, and one residual remains.
+//!
+//! # Departures
+//! None: where the bound is refused the caller asks [`ExactDisk`](super::predicates::ExactDisk).
+
+use super::Point;
+
+/// Half an ulp of 1.
+pub(crate) const U: f64 = f64::EPSILON / 2.0;
+
+/// A boundary element with what doubles need to compute with it.
+#[derive(Clone, Copy, Debug)]
+pub enum Governor {
+    /// A reflex corner.
+    Corner(Point),
+    /// An edge with its unit direction.
+    Edge {
+        /// Where it starts.
+        start: Point,
+        /// Where it ends.
+        end: Point,
+        /// Unit vector from start to end.
+        direction: Point,
+    },
+}
+
+impl Governor {
+    fn anchor(&self) -> Point {
+        match *self {
+            Self::Corner(p) => p,
+            Self::Edge { start, .. } => start,
+        }
+    }
+}
+
+/// A disk in doubles, relative to a local origin, with a bound on its error.
+#[derive(Clone, Copy, Debug)]
+pub struct TouchingDisk {
+    /// Local origin: a corner of one of the governors.
+    pub origin: Point,
+    /// Centre, relative to the origin.
+    pub centre: Point,
+    /// Radius.
+    pub radius: f64,
+    /// Bound on the error; infinite for a guess.
+    pub bound: f64,
+}
+
+/// Sine-like half angles: twice the sine of half the angle from `i` to `j`.
+fn sigma(c: f64, g: f64) -> f64 {
+    if g >= 0.0 { c / ((1.0 + g) / 2.0).sqrt() } else { (2.0 * (1.0 - g)).sqrt().copysign(c) }
+}
+
+/// `(1 + g, 1 - g)` without cancellation, from the sine `c` and the cosine `g`.
+fn complements(c: f64, g: f64) -> (f64, f64) {
+    if g >= 0.0 {
+        let up = 1.0 + g;
+        (up, c * c / up)
+    } else {
+        let um = 1.0 - g;
+        (c * c / um, um)
+    }
+}
+
+/// The sign of `x`, +1 for either zero.
+fn sign(x: f64) -> f64 {
+    if x < 0.0 { -1.0 } else { 1.0 }
+}
+
+/// Distance of `p` from the line of an edge; 0 at its ends, so no rounding loses the disk.
+fn height(p: Point, start: Point, end: Point, direction: Point) -> f64 {
+    if p == start || p == end { 0.0 } else { direction.cross(p - start) }
+}
+
+impl TouchingDisk {
+    /// Centre in the coordinates of the input, rounded.
+    #[inline]
+    #[must_use]
+    pub fn position(&self) -> Point {
+        self.origin + self.centre
+    }
+
+    /// The disk that touches three elements counterclockwise in the order given, uncertified.
+    ///
+    /// `near` chooses the local origin among the ends of the elements.
+    #[must_use]
+    pub fn guess(governors: &[Governor; 3], near: Point) -> Option<Self> {
+        use Governor::{Corner, Edge};
+        // Rotate so that corners come first.
+        let mut g = *governors;
+        for _ in 0..2 {
+            let corner = g.map(|x| matches!(x, Corner(_)));
+            let ordered = matches!(
+                corner,
+                [true, true, _] | [true, false, false] | [false, false, false]
+            );
+            if !ordered {
+                g.rotate_left(1);
+            }
+        }
+        let (origin, centre, radius) = match g {
+            [Corner(p), Corner(q), Corner(s)] => {
+                let (a, b) = (q - p, s - p);
+                let d = 2.0 * a.cross(b);
+                if d <= 0.0 {
+                    return None;
+                }
+                let (a2, b2) = (a.norm2(), b.norm2());
+                let c = Point::new((b.y * a2 - a.y * b2) / d, (a.x * b2 - b.x * a2) / d);
+                (p, c, c.norm())
+            }
+            [Corner(p), Corner(q), Edge { start, end, direction }] => {
+                two_corners_and_edge(p, q, start, end, direction)?
+            }
+            [
+                Corner(p),
+                Edge { start: a1, end: b1, direction: t1 },
+                Edge { start: a2, end: b2, direction: t2 },
+            ] => {
+                let (h1, h2) = (height(p, a1, b1, t1).max(0.0), height(p, a2, b2, t2).max(0.0));
+                let (c12, g12) = (t1.cross(t2), t1.dot(t2));
+                let (up, um) = complements(c12, g12);
+                if um <= 0.0 {
+                    return None;
+                }
+                let s = (2.0 * up * h1 * h2).sqrt();
+                let tau = -sign(c12);
+                let r = if tau > 0.0 {
+                    (h1 + h2 + s) / um
+                } else {
+                    ((h1 - h2) * (h1 - h2) + 2.0 * um * h1 * h2) / (um * (h1 + h2 + s))
+                };
+                let inner = up * h1 + tau * s;
+                let k = -sign(c12) * if inner == 0.0 { tau } else { sign(inner) };
+                let along = (h1 * (2.0 * r - h1)).max(0.0).sqrt();
+                (p, t1.perp() * (r - h1) + t1 * (k * along), r)
+            }
+            _ => three_edges(&g, near)?,
+        };
+        let sound = centre.x.is_finite() && centre.y.is_finite() && radius.is_finite();
+        (sound && radius > 0.0).then_some(Self { origin, centre, radius, bound: f64::INFINITY })
+    }
+
+    /// The certified disk near this one; `None` where doubles cannot prove it.
+    #[must_use]
+    pub fn certified(&self, governors: &[Governor; 3]) -> Option<Self> {
+        if let Some((edge, corner, other)) = touching_end(governors) {
+            return self.certified_on_normal(&governors[edge], &governors[corner], &governors[other]);
+        }
+        let mut disk = *self;
+        let mut step = f64::INFINITY;
+        for _ in 0..4 {
+            let [(n1, p1, _), (n2, p2, _), (n3, p3, _)] = disk.residuals(governors)?;
+            let (b, e) = (n2 - n1, n3 - n1);
+            let d = b.cross(e);
+            if d.is_nan() || d <= 12.0 * U {
+                return None;
+            }
+            let (p12, p13) = (p1 - p2, p1 - p3);
+            let dx = Point::new((p12 * e.y - p13 * b.y) / d, (b.x * p13 - e.x * p12) / d);
+            let before = step;
+            step = p1.abs() + p2.abs() + p3.abs();
+            // A start that is good already needs one step; a poor one converges quadratically.
+            if step >= before {
+                break;
+            }
+            disk.centre = disk.centre + dx;
+            disk.radius += p1 + n1.dot(dx);
+            if step <= 64.0 * U * disk.radius {
+                break;
+            }
+        }
+        let [(n1, p1, e1), (n2, p2, e2), (n3, p3, e3)] = disk.residuals(governors)?;
+        let d = (n2 - n1).cross(n3 - n1) - 12.0 * U;
+        if d.is_nan() || d <= 0.0 || disk.radius.is_nan() || disk.radius <= 0.0 {
+            return None;
+        }
+        let (l1, l2, l3) = ((n2 - n3).norm(), (n3 - n1).norm(), (n1 - n2).norm());
+        let factor = 2.0 / d;
+        let mut bound =
+            factor * (l1 * (p1.abs() + e1) + l2 * (p2.abs() + e2) + l3 * (p3.abs() + e3));
+        if governors.iter().any(|g| matches!(g, Governor::Corner(_))) {
+            let k = factor * (l1 + l2 + l3);
+            if 32.0 * k * bound > disk.radius {
+                return None;
+            }
+            bound *= 1.25;
+        }
+        disk.bound = bound;
+        (bound < disk.radius).then_some(disk)
+    }
+
+    /// Normal, residual `distance - r` and its rounding error for each governor.
+    fn residuals(&self, governors: &[Governor; 3]) -> Option<[(Point, f64, f64); 3]> {
+        let mut out = [(Point::default(), 0.0, 0.0); 3];
+        for (g, slot) in governors.iter().zip(&mut out) {
+            let (n, distance, error) = self.distance(g)?;
+            *slot = (n, distance - self.radius, error);
+        }
+        Some(out)
+    }
+
+    /// Unit normal towards the centre, distance and error bound of the residual.
+    fn distance(&self, g: &Governor) -> Option<(Point, f64, f64)> {
+        let a = g.anchor() - self.origin;
+        let q = self.centre - a;
+        match *g {
+            Governor::Corner(_) => {
+                let distance = q.norm();
+                let error = U * (4.0 * distance + a.x.abs() + a.y.abs() + self.radius);
+                (distance > 0.0).then(|| (q * (1.0 / distance), distance, error))
+            }
+            Governor::Edge { direction: u, .. } => {
+                let (left, right) = (q.y * u.x, q.x * u.y);
+                let error = U
+                    * (8.0 * (left.abs() + right.abs())
+                        + (a.y * u.x).abs()
+                        + (a.x * u.y).abs()
+                        + self.radius);
+                Some((u.perp(), left - right, error))
+            }
+        }
+    }
+
+    /// The disk whose centre lies on the normal of `edge` at its end `corner`, touching `other`.
+    fn certified_on_normal(
+        &self,
+        edge: &Governor,
+        corner: &Governor,
+        other: &Governor,
+    ) -> Option<Self> {
+        let (&Governor::Edge { direction, .. }, &Governor::Corner(v)) = (edge, corner) else {
+            return None;
+        };
+        let normal = direction.perp();
+        let mut disk = Self { origin: v, ..*self };
+        let mut step = f64::INFINITY;
+        let (g, rho, error) = loop {
+            disk.centre = normal * disk.radius;
+            let (n, distance, error) = disk.distance(other)?;
+            let g = 1.0 - n.dot(normal);
+            if g.is_nan() || g <= 16.0 * U {
+                return None;
+            }
+            let rho = distance - disk.radius;
+            if rho.abs() <= 8.0 * U * disk.radius || rho.abs() >= step / 2.0 {
+                break (g, rho, error);
+            }
+            step = rho.abs();
+            disk.radius += rho / g;
+        };
+        let r = disk.radius;
+        let mut bound = 2.0 * (rho.abs() + error + 16.0 * U * r) / (g - 8.0 * U) + 16.0 * U * r;
+        if matches!(other, Governor::Corner(_)) {
+            if 64.0 * bound > r * g {
+                return None;
+            }
+            bound *= 1.25;
+        }
+        disk.bound = bound;
+        (r > 0.0 && bound < r).then_some(disk)
+    }
+}
+
+/// Positions of an edge, a corner that ends it, and the third element.
+fn touching_end(governors: &[Governor; 3]) -> Option<(usize, usize, usize)> {
+    for corner in 0..3 {
+        let Governor::Corner(p) = governors[corner] else { continue };
+        for edge in 0..3 {
+            if let Governor::Edge { start, end, .. } = governors[edge]
+                && (start == p || end == p)
+            {
+                return Some((edge, corner, 3 - edge - corner));
+            }
+        }
+    }
+    None
+}
+
+fn two_corners_and_edge(
+    p: Point,
+    q: Point,
+    start: Point,
+    end: Point,
+    t: Point,
+) -> Option<(Point, Point, f64)> {
+    let (hp, hq) = (height(p, start, end, t).max(0.0), height(q, start, end, t).max(0.0));
+    let w = q - p;
+    let (u, v) = (t.dot(w), t.cross(w));
+    let s = ((u * u + v * v) * hp * hq).sqrt();
+    let x = if hp == 0.0 {
+        0.0
+    } else if u >= 0.0 {
+        -(hp * u + s) / v
+    } else {
+        hp * (u * u + v * hq) / (hp * u - s)
+    };
+    let r = if hp >= hq {
+        (x * x + hp * hp) / (2.0 * hp)
+    } else {
+        ((x - u) * (x - u) + hq * hq) / (2.0 * hq)
+    };
+    Some((p, t * x + t.perp() * (r - hp), r))
+}
+
+fn three_edges(g: &[Governor; 3], near: Point) -> Option<(Point, Point, f64)> {
+    let mut t = [Point::default(); 3];
+    let mut ends = [Point::default(); 6];
+    for k in 0..3 {
+        let Governor::Edge { start, end, direction } = g[k] else { return None };
+        t[k] = direction;
+        ends[2 * k] = start;
+        ends[2 * k + 1] = end;
+    }
+    let mut origin = ends[0];
+    let mut best = f64::INFINITY;
+    for &end in &ends {
+        let distance = (end - near).norm2();
+        if distance < best {
+            best = distance;
+            origin = end;
+        }
+    }
+    let h: [f64; 3] =
+        std::array::from_fn(|k| height(origin, ends[2 * k], ends[2 * k + 1], t[k]));
+    let c = [t[0].cross(t[1]), t[1].cross(t[2]), t[2].cross(t[0])];
+    let cos = [t[0].dot(t[1]), t[1].dot(t[2]), t[2].dot(t[0])];
+    let product: f64 = (0..3).map(|k| sigma(c[k], cos[k])).product();
+    // Counterclockwise contacts make the sum of the three sines positive.
+    let same = (c[0] >= 0.0) == (c[1] >= 0.0) && (c[1] >= 0.0) == (c[2] >= 0.0);
+    let d = if same { product / 2.0 } else { -product / 2.0 };
+    if d.is_nan() || d <= 0.0 {
+        return None;
+    }
+    let r = (h[0] * c[1] + h[1] * c[2] + h[2] * c[0]) / d;
+    // c12 and c13 = -c31; take the larger.
+    let (j, c1j, g1j) =
+        if c[0].abs() >= c[2].abs() { (1, c[0], cos[0]) } else { (2, -c[2], cos[2]) };
+    let (_, um) = complements(c1j, g1j);
+    let x = (r * um + h[0] * g1j - h[j]) / -c1j;
+    Some((origin, t[0] * x + t[0].perp() * (r - h[0]), r))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn edge(a: (f64, f64), b: (f64, f64)) -> Governor {
+        let (start, end) = (Point::new(a.0, a.1), Point::new(b.0, b.1));
+        let d = end - start;
+        Governor::Edge { start, end, direction: d * (1.0 / d.norm()) }
+    }
+
+    fn corner(x: f64, y: f64) -> Governor {
+        Governor::Corner(Point::new(x, y))
+    }
+
+    fn check(g: [Governor; 3], x: f64, y: f64, r: f64) {
+        for turn in 0..3 {
+            let mut g = g;
+            g.rotate_left(turn);
+            let disk = TouchingDisk::guess(&g, Point::default()).unwrap();
+            let disk = disk.certified(&g).unwrap();
+            let off = (disk.position() - Point::new(x, y)).norm() + (disk.radius - r).abs();
+            assert!(off <= 2.0 * disk.bound && disk.bound < 1e-13, "{disk:?}");
+        }
+    }
+
+    #[test]
+    fn three_four_five_triangle_has_radius_one() {
+        let g = [
+            edge((0.0, 0.0), (4.0, 0.0)),
+            edge((4.0, 0.0), (0.0, 3.0)),
+            edge((0.0, 3.0), (0.0, 0.0)),
+        ];
+        check(g, 1.0, 1.0, 1.0);
+    }
+
+    #[test]
+    fn a_corner_between_two_walls_of_an_l() {
+        let q = 2.0 - 2.0_f64.sqrt();
+        let g = [corner(1.0, 1.0), edge((0.0, 3.0), (0.0, 0.0)), edge((0.0, 0.0), (3.0, 0.0))];
+        check(g, q, q, q);
+    }
+
+    #[test]
+    fn the_end_of_an_edge_and_the_wall_opposite() {
+        let g = [corner(1.0, 1.0), edge((3.0, 1.0), (1.0, 1.0)), edge((0.0, 0.0), (3.0, 0.0))];
+        check(g, 1.0, 0.5, 0.5);
+    }
+
+    #[test]
+    fn two_corners_and_the_wall_below() {
+        // 5² + (r - 1)² = r² at the corners (-5, 1) and (5, 1): r = 13.
+        let g = [corner(5.0, 1.0), corner(-5.0, 1.0), edge((-9.0, 0.0), (9.0, 0.0))];
+        check(g, 0.0, 13.0, 13.0);
+    }
+
+    #[test]
+    fn three_corners_give_the_circumcircle() {
+        check([corner(0.0, 0.0), corner(8.0, 0.0), corner(0.0, 6.0)], 4.0, 3.0, 5.0);
+    }
+
+    #[test]
+    fn clockwise_order_gives_no_disk() {
+        let g = [
+            edge((0.0, 3.0), (0.0, 0.0)),
+            edge((4.0, 0.0), (0.0, 3.0)),
+            edge((0.0, 0.0), (4.0, 0.0)),
+        ];
+        assert!(TouchingDisk::guess(&g, Point::default()).is_none());
+    }
+}
