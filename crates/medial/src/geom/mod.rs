@@ -4,6 +4,7 @@ mod bounds_tree;
 mod disk;
 mod double;
 mod point;
+pub mod predicates;
 
 pub use bounds_tree::{BoundsTree, Rect, Visitor};
 pub use disk::{Governor, TouchingDisk};
