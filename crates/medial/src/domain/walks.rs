@@ -1,4 +1,5 @@
-use crate::geom::Point;
+use super::Report;
+use crate::geom::{Point, orient2d};
 
 /// A boundary element: an open edge, or the corner at the start of an edge.
 ///
@@ -120,6 +121,7 @@ pub struct Domain {
     edges: Vec<Edge>,
     origins: Vec<Origin>,
     walks: Vec<Walk>,
+    report: Report,
 }
 
 impl Domain {
@@ -127,12 +129,13 @@ impl Domain {
     ///
     /// The caller guarantees validity: simple up to touching, directed, without spikes.
     /// Edge k of a walk starts at point k; `polygon` is taken from the first origin of a walk.
-    pub(super) fn from_walks(walks: &[Vec<(Point, Origin)>]) -> Self {
+    pub(super) fn from_walks(walks: &[Vec<(Point, Origin)>], report: Report) -> Self {
         let n = walks.iter().map(Vec::len).sum();
         let mut domain = Self {
             edges: Vec::with_capacity(n),
             origins: Vec::with_capacity(n),
             walks: Vec::with_capacity(walks.len()),
+            report,
         };
         for walk in walks {
             let first = domain.edges.len() as u32;
@@ -206,6 +209,13 @@ impl Domain {
         self.edges[self.edges[edge as usize].next as usize].start
     }
 
+    /// What was changed to make the input valid.
+    #[inline]
+    #[must_use]
+    pub fn report(&self) -> &Report {
+        &self.report
+    }
+
     /// Connected components of the open interior.
     #[must_use]
     pub fn n_components(&self) -> usize {
@@ -214,8 +224,7 @@ impl Domain {
 }
 
 fn turn(before: Point, at: Point, after: Point) -> Corner {
-    let c = |p: Point| robust::Coord { x: p.x, y: p.y };
-    let sign = robust::orient2d(c(before), c(at), c(after));
+    let sign = orient2d(before, at, after);
     if sign > 0.0 {
         Corner::Convex
     } else if sign < 0.0 {

@@ -3,10 +3,12 @@
 mod bounds_tree;
 mod disk;
 mod double;
+mod orient;
 mod point;
 pub mod predicates;
 
 pub use bounds_tree::{BoundsTree, Rect, Visitor};
 pub use disk::{Governor, TouchingDisk};
 pub use double::Double;
+pub use orient::{cross_directions, orient2d};
 pub use point::Point;

@@ -1,0 +1,168 @@
+use super::Point;
+
+/// The side of the line `a` → `b` on which `c` lies: positive to the left, 0 on it; the sign is
+/// exact.
+///
+/// The magnitude approximates twice the area of the triangle. Exact as long as no product
+/// underflows or overflows, which the exponents a [`Domain`](crate::domain::Domain) accepts
+/// ensure.
+///
+/// ```
+/// use medial::geom::{Point, orient2d};
+/// let (a, b) = (Point::new(0.1, 0.1), Point::new(0.3, 0.3));
+/// assert_eq!(orient2d(a, b, Point::new(0.2, 0.2)), 0.0);
+/// assert!(orient2d(a, b, Point::new(0.2, 0.2_f64.next_up())) > 0.0);
+/// ```
+#[inline]
+#[must_use]
+pub fn orient2d(a: Point, b: Point, c: Point) -> f64 {
+    let coord = |p: Point| robust::Coord { x: p.x, y: p.y };
+    robust::orient2d(coord(a), coord(b), coord(c))
+}
+
+/// The turn from the direction `a` → `b` to the direction `c` → `d`: positive to the left, 0 if
+/// they are parallel; the sign is exact.
+///
+/// ```
+/// use medial::geom::{Point, cross_directions};
+/// let p = Point::new;
+/// assert!(cross_directions(p(0.0, 0.0), p(1.0, 0.0), p(5.0, 5.0), p(5.0, 6.0)) > 0.0);
+/// assert_eq!(cross_directions(p(0.0, 0.0), p(1.0, 1.0), p(9.0, 7.0), p(8.0, 6.0)), 0.0);
+/// ```
+#[inline]
+#[must_use]
+pub fn cross_directions(a: Point, b: Point, c: Point, d: Point) -> f64 {
+    let (u, v) = (b - a, d - c);
+    let (left, right) = (u.x * v.y, u.y * v.x);
+    let det = left - right;
+    if det.abs() > CROSS_ERROR * (left.abs() + right.abs()) { det } else { exact_cross(a, b, c, d) }
+}
+
+/// Bound on the relative error of a cross product of two rounded differences.
+///
+/// Four differences, two products and one subtraction each add at most 2^-53 to first order:
+/// 2 + 1 + 1 of them meet in one term, and the rest covers the second order.
+const CROSS_ERROR: f64 = 6.0 * f64::EPSILON / 2.0;
+
+fn exact_cross(a: Point, b: Point, c: Point, d: Point) -> f64 {
+    let ux = two_diff(b.x, a.x);
+    let uy = two_diff(b.y, a.y);
+    let vx = two_diff(d.x, c.x);
+    let vy = two_diff(d.y, c.y);
+    let mut sum = Expansion::default();
+    for (i, j) in [(ux.0, vy.0), (ux.0, vy.1), (ux.1, vy.0), (ux.1, vy.1)] {
+        sum.add_product(i, j);
+    }
+    for (i, j) in [(uy.0, vx.0), (uy.0, vx.1), (uy.1, vx.0), (uy.1, vx.1)] {
+        sum.add_product(-i, j);
+    }
+    sum.sign_value()
+}
+
+/// An exact sum of up to 16 doubles, as nonoverlapping parts of increasing size.
+#[derive(Default)]
+struct Expansion {
+    parts: [f64; 16],
+    len: usize,
+}
+
+impl Expansion {
+    fn add_product(&mut self, a: f64, b: f64) {
+        let (high, low) = two_product(a, b);
+        self.add(low);
+        self.add(high);
+    }
+
+    fn add(&mut self, value: f64) {
+        let mut carry = value;
+        let mut kept = 0;
+        for k in 0..self.len {
+            let (high, low) = two_sum(carry, self.parts[k]);
+            carry = high;
+            if low != 0.0 {
+                self.parts[kept] = low;
+                kept += 1;
+            }
+        }
+        if carry != 0.0 {
+            self.parts[kept] = carry;
+            kept += 1;
+        }
+        self.len = kept;
+    }
+
+    /// The largest part, which has the sign of the sum.
+    fn sign_value(&self) -> f64 {
+        if self.len == 0 { 0.0 } else { self.parts[self.len - 1] }
+    }
+}
+
+/// The rounded sum and its exact error.
+#[inline]
+pub(super) fn two_sum(a: f64, b: f64) -> (f64, f64) {
+    let sum = a + b;
+    let b_part = sum - a;
+    let a_part = sum - b_part;
+    (sum, (a - a_part) + (b - b_part))
+}
+
+/// The rounded difference and its exact error.
+#[inline]
+pub(super) fn two_diff(a: f64, b: f64) -> (f64, f64) {
+    two_sum(a, -b)
+}
+
+/// The rounded product and its exact error, if neither overflows nor underflows.
+#[inline]
+pub(super) fn two_product(a: f64, b: f64) -> (f64, f64) {
+    let product = a * b;
+    let ((a1, a0), (b1, b0)) = (split(a), split(b));
+    (product, a0 * b0 - (((product - a1 * b1) - a0 * b1) - a1 * b0))
+}
+
+/// Halves of 26 bits each [Dekker 1971].
+#[inline]
+fn split(a: f64) -> (f64, f64) {
+    let c = 134_217_729.0 * a;
+    let high = c - (c - a);
+    (high, a - high)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn p(x: f64, y: f64) -> Point {
+        Point::new(x, y)
+    }
+
+    #[test]
+    fn parallel_directions_far_from_each_other_cross_to_exactly_zero() {
+        // (1/3, 1/7) is not exact, but twice the same difference is.
+        let (x, y) = (1.0 / 3.0, 1.0 / 7.0);
+        assert_eq!(cross_directions(p(0.0, 0.0), p(x, y), p(-x, -y), p(x, y)), 0.0);
+        assert!(cross_directions(p(0.0, 0.0), p(x, y), p(-x, -y), p(x, y.next_up())) > 0.0);
+        assert!(cross_directions(p(0.0, 0.0), p(x, y), p(-x, -y), p(x.next_up(), y)) < 0.0);
+    }
+
+    #[test]
+    fn a_difference_that_rounds_still_has_an_exact_cross() {
+        // b - a = (2^60 + 1, 1) needs 61 bits; c - d repeats it, then misses by the 1.
+        let big = 2f64.powi(60);
+        let (a, b) = (p(-1.0, 0.0), p(big, 1.0));
+        assert_eq!(cross_directions(a, b, a, b), 0.0);
+        assert!(cross_directions(a, b, p(0.0, 0.0), p(big, 1.0)) > 0.0);
+        assert!(cross_directions(p(0.0, 0.0), p(big, 1.0), a, b) < 0.0);
+    }
+
+    #[test]
+    fn the_cross_of_the_smallest_allowed_numbers_does_not_underflow() {
+        let tiny = 2f64.powi(-200);
+        let step = tiny.next_up() - tiny;
+        assert!(
+            cross_directions(p(0.0, 0.0), p(tiny, tiny), p(0.0, 0.0), p(tiny, tiny + step)) > 0.0
+        );
+        assert_eq!(orient2d(p(0.0, 0.0), p(tiny, tiny), p(tiny + step, tiny + step)), 0.0);
+        assert!(orient2d(p(0.0, 0.0), p(tiny, tiny), p(tiny, tiny + step)) > 0.0);
+    }
+}
