@@ -3,6 +3,7 @@
 mod build;
 mod error;
 mod report;
+mod sites;
 mod walks;
 
 pub use build::Options;

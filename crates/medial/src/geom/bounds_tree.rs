@@ -109,6 +109,12 @@ impl BoundsTree {
         Self { n_items, base, boxes, levels }
     }
 
+    /// The numbers of the items.
+    #[must_use]
+    pub fn items(&self) -> std::ops::Range<u32> {
+        self.base..self.base + self.n_items
+    }
+
     /// The box of all items.
     #[must_use]
     pub fn bounds(&self) -> Rect {

@@ -104,10 +104,8 @@ impl TouchingDisk {
         let mut g = *governors;
         for _ in 0..2 {
             let corner = g.map(|x| matches!(x, Corner(_)));
-            let ordered = matches!(
-                corner,
-                [true, true, _] | [true, false, false] | [false, false, false]
-            );
+            let ordered =
+                matches!(corner, [true, true, _] | [true, false, false] | [false, false, false]);
             if !ordered {
                 g.rotate_left(1);
             }
@@ -159,7 +157,11 @@ impl TouchingDisk {
     #[must_use]
     pub fn certified(&self, governors: &[Governor; 3]) -> Option<Self> {
         if let Some((edge, corner, other)) = touching_end(governors) {
-            return self.certified_on_normal(&governors[edge], &governors[corner], &governors[other]);
+            return self.certified_on_normal(
+                &governors[edge],
+                &governors[corner],
+                &governors[other],
+            );
         }
         let mut disk = *self;
         let mut step = f64::INFINITY;
@@ -335,8 +337,7 @@ fn three_edges(g: &[Governor; 3], near: Point) -> Option<(Point, Point, f64)> {
             origin = end;
         }
     }
-    let h: [f64; 3] =
-        std::array::from_fn(|k| height(origin, ends[2 * k], ends[2 * k + 1], t[k]));
+    let h: [f64; 3] = std::array::from_fn(|k| height(origin, ends[2 * k], ends[2 * k + 1], t[k]));
     let c = [t[0].cross(t[1]), t[1].cross(t[2]), t[2].cross(t[0])];
     let cos = [t[0].dot(t[1]), t[1].dot(t[2]), t[2].dot(t[0])];
     let product: f64 = (0..3).map(|k| sigma(c[k], cos[k])).product();

@@ -2,7 +2,7 @@ use std::cmp::Ordering;
 
 use crate::domain::{Corner, Domain, Site};
 use crate::geom::predicates::ExactDisk;
-use crate::geom::{Point, TouchingDisk};
+use crate::geom::{Point, TouchingDisk, cross_directions};
 
 /// Angles of footpoints closer than this, in radians, are ordered exactly.
 ///
@@ -89,7 +89,7 @@ fn exact_order(domain: &Domain, exact: Option<&ExactDisk>, a: Site, b: Site) -> 
 
 /// The sign of `(qa - pa) × (qb - pb)`, exactly.
 fn direction_turn(pa: Point, qa: Point, pb: Point, qb: Point) -> Ordering {
-    crate::geom::direction_cross(pa, qa, pb, qb)
+    cross_directions(pa, qa, pb, qb).total_cmp(&0.0)
 }
 
 /// Whether `b` comes directly after `a` along the boundary.

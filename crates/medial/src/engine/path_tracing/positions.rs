@@ -160,9 +160,10 @@ impl Precise {
         }
         let origin = match on_normal {
             Some((_, corner)) => corner_of(&governors[corner]),
-            None => governors.iter().map(corner_of).min_by(|a, b| {
-                (*a - centre).norm2().total_cmp(&(*b - centre).norm2())
-            })?,
+            None => governors
+                .iter()
+                .map(corner_of)
+                .min_by(|a, b| (*a - centre).norm2().total_cmp(&(*b - centre).norm2()))?,
         };
         let elements = [0, 1, 2].map(|k| match governors[k] {
             Governor::Corner(p) => Element::Corner(Vector::difference(p, origin)),

@@ -34,14 +34,14 @@ impl HiddenRings {
         if corners.is_empty() {
             return None;
         }
-        let size = (bounds.max - bounds.min).x.max((bounds.max - bounds.min).y).max(f64::MIN_POSITIVE);
+        let size =
+            (bounds.max - bounds.min).x.max((bounds.max - bounds.min).y).max(f64::MIN_POSITIVE);
         corners.sort_by_key(|&(p, k)| {
             let cell = |v: f64| (v / size * f64::from(1 << 16)) as u32;
             (interleave(cell(p.x - bounds.min.x), cell(p.y - bounds.min.y)), k)
         });
-        let tree = BoundsTree::new(0, corners.len() as u32, |k| {
-            Rect::EMPTY.with(corners[k as usize].0)
-        });
+        let tree =
+            BoundsTree::new(0, corners.len() as u32, |k| Rect::EMPTY.with(corners[k as usize].0));
         Some(Self { corners: corners.iter().map(|&(_, k)| Site::corner(k)).collect(), tree })
     }
 

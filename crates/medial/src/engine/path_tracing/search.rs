@@ -10,7 +10,7 @@ use std::cmp::Ordering;
 use super::course::Course;
 use super::rings::HiddenRings;
 use super::touch::{Touch, touch};
-use super::verify::{Verify, Verdict};
+use super::verify::{Verdict, Verify};
 use crate::domain::{Corner, Domain, Site};
 use crate::engine::EngineError;
 use crate::geom::predicates::ExactDisk;
@@ -112,7 +112,6 @@ impl<'a> Search<'a> {
                 && let Some(behind) = contact_behind(contacts, right, left)
             {
                 // A whole ring lies on the path and touches the disk from behind.
-                let behind: Vec<Site> = behind.collect();
                 let site = self.exact_first(&gap, &behind).ok_or_else(|| self.broken(&gap))?;
                 let next = self.proposal_or_exact(&gap, site);
                 found = self.settle(&gap, next)?;
@@ -262,7 +261,8 @@ impl<'a> Search<'a> {
                     best = None;
                     if proposal.site.is_edge() {
                         let k = proposal.site.index();
-                        for s in [self.domain.ahead(Site::edge(k)), self.domain.behind(Site::edge(k))]
+                        for s in
+                            [self.domain.ahead(Site::edge(k)), self.domain.behind(Site::edge(k))]
                         {
                             if !seen.contains(&s) && !self.banned.contains(&s) {
                                 seen.push(s);
@@ -448,18 +448,11 @@ fn rounded(exact: &ExactDisk, origin: Point) -> TouchingDisk {
 }
 
 /// Contacts strictly between the left and the right governor at the back of an arriving path.
-fn contact_behind(
-    contacts: &[Site],
-    right: Site,
-    left: Site,
-) -> Option<impl Iterator<Item = Site>> {
+fn contact_behind(contacts: &[Site], right: Site, left: Site) -> Option<Vec<Site>> {
     let n = contacts.len();
     let at = |s: Site| contacts.iter().position(|&c| c == s);
     let (l, r) = (at(left)?, at(right)?);
     let between = (r + n - l) % n;
     // Directly after the left governor comes the right one, or pieces of the same contact run.
-    (between > 1).then(|| {
-        let list: Vec<Site> = (1..between).map(|k| contacts[(l + k) % n]).collect();
-        list.into_iter()
-    })
+    (between > 1).then(|| (1..between).map(|k| contacts[(l + k) % n]).collect())
 }

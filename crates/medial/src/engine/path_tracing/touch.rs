@@ -59,8 +59,8 @@ fn touch_end(
             let (a, b) = (domain.edge(edge).start, domain.end(edge));
             let edge = on_normal && disk.front(a, b) == Greater;
             let reflex = domain.edge(corner).corner == Corner::Reflex;
-            let corner = (reflex && in_corner_zone(domain, disk, corner))
-                .then_some(Site::corner(corner));
+            let corner =
+                (reflex && in_corner_zone(domain, disk, corner)).then_some(Site::corner(corner));
             if edge || corner.is_some() { Touch::Contact { edge, corner } } else { Touch::Clear }
         }
     }
@@ -69,7 +69,6 @@ fn touch_end(
 /// Whether the centre lies between the normals of the corner at the start of edge `corner`.
 pub(super) fn in_corner_zone(domain: &Domain, disk: &ExactDisk, corner: u32) -> bool {
     let edge = domain.edge(corner);
-    let (before, at, after) =
-        (domain.edge(edge.prev).start, edge.start, domain.end(corner));
+    let (before, at, after) = (domain.edge(edge.prev).start, edge.start, domain.end(corner));
     disk.along(before, at, at) != Less && disk.along(at, after, at) != Greater
 }

@@ -248,11 +248,9 @@ impl<'a> Tracer<'a> {
             let list = &self.contacts[knot.contacts.clone()];
             let (centre, radius) = match &knot.triple {
                 None => (knot.centre, 0.0),
-                Some(triple) => position(domain, list, triple, knot.centre, knot.radius)
-                    .ok_or(EngineError::Internal {
-                        stage: "placing a keypoint",
-                        place: knot.centre,
-                    })?,
+                Some(triple) => position(domain, list, triple, knot.centre, knot.radius).ok_or(
+                    EngineError::Internal { stage: "placing a keypoint", place: knot.centre },
+                )?,
             };
             let kind = match knot.gaps.len() {
                 1 => KeypointKind::End,
@@ -264,7 +262,12 @@ impl<'a> Tracer<'a> {
         let paths = self
             .paths
             .iter()
-            .map(|p| Path { from: p.from, to: p.to, left: number(&p.left), right: number(&p.right) })
+            .map(|p| Path {
+                from: p.from,
+                to: p.to,
+                left: number(&p.left),
+                right: number(&p.right),
+            })
             .collect();
         let sites = used.iter().map(|&s| site_record(domain, s)).collect();
         MedialAxis::from_parts(

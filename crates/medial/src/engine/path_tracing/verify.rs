@@ -107,9 +107,7 @@ impl<'s, 'a> Verify<'s, 'a> {
     fn sites_of(&self, edge: u32) -> impl Iterator<Item = Site> + use<> {
         let domain = self.search.domain;
         let next = domain.edge(edge).next;
-        let corner = |k: u32| {
-            (domain.edge(k).corner != Corner::Convex).then_some(Site::corner(k))
-        };
+        let corner = |k: u32| (domain.edge(k).corner != Corner::Convex).then_some(Site::corner(k));
         [Some(Site::edge(edge)), corner(edge), corner(next)].into_iter().flatten()
     }
 
@@ -160,7 +158,7 @@ impl<'s, 'a> Verify<'s, 'a> {
         let mut exact = exact;
         let mut contacts: Vec<Site> = Vec::with_capacity(4);
         let domain = search.domain;
-        let mut need = |exact: &mut Option<ExactDisk>| -> bool {
+        let need = |exact: &mut Option<ExactDisk>| -> bool {
             if exact.is_none() {
                 *exact = search.exact(&self.triple);
             }
@@ -197,9 +195,7 @@ impl<'s, 'a> Verify<'s, 'a> {
             if at_start == Ordering::Less || at_end == Ordering::Greater {
                 return match (role, at_end) {
                     (0, Ordering::Greater) => Verdict::Cut(vec![domain.ahead(site)]),
-                    (2, _) if at_start == Ordering::Less => {
-                        Verdict::Cut(vec![domain.behind(site)])
-                    }
+                    (2, _) if at_start == Ordering::Less => Verdict::Cut(vec![domain.behind(site)]),
                     _ => Verdict::OffEdge,
                 };
             }
@@ -248,8 +244,7 @@ impl<'s, 'a> Verify<'s, 'a> {
     /// Bound on the error of a distance, or a position along an edge, from the certified centre.
     fn doubt(&self, a: Point, q: Point) -> f64 {
         let d = &self.certified;
-        d.bound
-            + U * (16.0 * (q.x.abs() + q.y.abs()) + a.x.abs() + a.y.abs() + 2.0 * d.radius)
+        d.bound + U * (16.0 * (q.x.abs() + q.y.abs()) + a.x.abs() + a.y.abs() + 2.0 * d.radius)
     }
 }
 
