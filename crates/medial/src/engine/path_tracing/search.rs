@@ -192,21 +192,61 @@ impl<'a> Search<'a> {
         } else {
             shorter(length(gap.right).unwrap_or(1.0), length(gap.left)) / 2.0
         };
+        let limit = self.limit(gap);
+        let mut growing = true;
         // Doubling exponents end long before this.
         for _ in 0..1100 {
-            let position = gap.position + reach;
+            let mut position = gap.position + reach;
             if best.is_some_and(|b| b.position <= position + reach) || !position.is_finite() {
                 break;
             }
-            let Some(disk) = gap.course.disk_at(position) else { break };
+            let at_limit = limit.filter(|l| l.1 <= position);
+            let disk = match at_limit {
+                Some((disk, end)) => {
+                    position = end;
+                    Some(disk)
+                }
+                None => gap.course.disk_at(position),
+            };
+            let Some(disk) = disk else {
+                // The governors meet before that.
+                growing = false;
+                reach /= 2.0;
+                if reach <= 1e-12 * gap.start.radius {
+                    break;
+                }
+                continue;
+            };
             let mut verify = Verify::hunting(self, gap, disk, position);
             verify.run();
             if let Some(hit) = verify.best() {
                 return Some(hit);
             }
+            if !growing || at_limit.is_some() {
+                break;
+            }
             reach *= 4.0;
         }
         best
+    }
+
+    /// Where the path leaves the zone of a governor, whatever stands there.
+    fn limit(&self, gap: &Gap) -> Option<(TouchingDisk, f64)> {
+        let end_of = |site: Site| self.domain.edge(site.index()).next;
+        let corners = [
+            gap.right.is_edge().then(|| Site::corner(end_of(gap.right))),
+            gap.left.is_edge().then(|| Site::corner(gap.left.index())),
+        ];
+        let mut first: Option<(TouchingDisk, f64)> = None;
+        for site in corners.into_iter().flatten() {
+            let governors = self.triple(gap, site).map(|s| self.domain.governor(s));
+            let Some(disk) = TouchingDisk::guess(&governors, gap.start.centre) else { continue };
+            let position = gap.course.position(&disk);
+            if position > gap.position && first.is_none_or(|f| position < f.1) {
+                first = Some((disk, position));
+            }
+        }
+        first
     }
 
     /// From a first proposal to the verified end of the path.
