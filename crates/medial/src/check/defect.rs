@@ -364,10 +364,9 @@ impl fmt::Display for Defect {
             Self::LostWalk { walk, first, .. } => {
                 write!(f, "boundary walk {walk}, with {first}, governs nothing")
             }
-            Self::Untiled { site, starts, ends, .. } => write!(
-                f,
-                "{site}: the cells along it start {starts} times and end {ends} times"
-            ),
+            Self::Untiled { site, starts, ends, .. } => {
+                write!(f, "{site}: the cells along it start {starts} times and end {ends} times")
+            }
             Self::Identity(identity) => return write!(f, "{identity}"),
         }?;
         self.at().map_or(Ok(()), |at| write!(f, ", at ({}, {})", at.x, at.y))

@@ -77,6 +77,23 @@ impl<'a> MaximalDisk<'a> {
         })
     }
 
+    /// Orders the distance from an edge whose zone holds the centre against the radius; `None` if
+    /// the centre lies in another zone, or does not see the edge from its front and the edge is no
+    /// nearer than the radius.
+    pub(super) fn touch(&self, edge: u32) -> Option<Ordering> {
+        let (start, end) = (self.domain.edge(edge).start, self.domain.end(edge));
+        if !self.in_zone(Site::edge(edge)) {
+            return None;
+        }
+        if self.across(start, end).is_ge() {
+            return Some(self.side(Site::edge(edge)));
+        }
+        let (distance, error) = self.enclosure.across(end, start);
+        let residual = (distance - self.enclosure.radius.value(), error + f64::EPSILON * distance);
+        let side = self.decide(residual, |disk| disk.side(Element::Edge(end, start)));
+        side.is_lt().then_some(side)
+    }
+
     /// The sign of `(b - a)·(c - p)` for the centre `c`.
     pub(super) fn along(&self, a: Point, b: Point, p: Point) -> Ordering {
         self.decide(self.enclosure.along(a, b, p), |disk| disk.along(a, b, p))
@@ -108,11 +125,18 @@ impl<'a> MaximalDisk<'a> {
             if across { disk.enclosure.across(a, b) } else { disk.enclosure.along(a, b, a) }
         };
         let ((ours, e1), (theirs, e2)) = (place(self), place(other));
-        self.decide((ours - theirs, e1 + e2 + 4.0 * f64::EPSILON * (ours.abs() + theirs.abs())), |disk| {
-            other.exact().map_or(Ordering::Equal, |other| {
-                if across { disk.compare_across(other, a, b) } else { disk.compare_along(other, a, b) }
-            })
-        })
+        self.decide(
+            (ours - theirs, e1 + e2 + 4.0 * f64::EPSILON * (ours.abs() + theirs.abs())),
+            |disk| {
+                other.exact().map_or(Ordering::Equal, |other| {
+                    if across {
+                        disk.compare_across(other, a, b)
+                    } else {
+                        disk.compare_along(other, a, b)
+                    }
+                })
+            },
+        )
     }
 }
 
