@@ -5,5 +5,6 @@
 
 pub mod brute_force;
 pub mod compare;
+pub mod parts;
 pub mod random;
 pub mod shapes;
