@@ -1,1 +1,101 @@
-//! The judge.
+//! The judge: every defect of an axis, found without trusting anything in it.
+//!
+//! # Contract
+//! A complete exact axis without a defect is the medial axis of the domain: graph, governors and
+//! their order exactly, positions and radii within four units in the last place.
+//! O(n log n) for n edges where boxes around edges find the boundary near a disk quickly.
+//!
+//! # Method
+//! 1. Match the sites with the domain by name and bits.
+//! 2. Keypoint by keypoint, enclose the disk that touches the governors and decide that all touch
+//!    it inside their zones, counterclockwise, and that nothing else touches or cuts it.
+//! 3. Path by path, match the governors with the gaps between neighbouring contacts at both ends,
+//!    and decide that the two disks are distinct and follow one another.
+//! 4. Along the boundary, see that the footpoints tile every site.
+//! 5. Compare counts and areas with what the domain demands.
+//!
+//! Bounds in double-double decide nearly everything, exact numbers what is left; floats alone are
+//! used only where a failure is sure in spite of rounding.
+
+mod areas;
+mod boundary;
+mod box_tree;
+mod context;
+mod defect;
+mod direction;
+mod double_double;
+mod enclosure;
+mod identities;
+mod keypoints;
+mod maximal_disk;
+mod name;
+mod paths;
+mod sampled;
+mod verdict;
+
+pub use defect::Defect;
+pub use name::Name;
+pub use verdict::{Counts, Identity, LeftOut, Relation, Verdict};
+
+use crate::axis::{Accuracy, MedialAxis};
+use crate::domain::Domain;
+use context::Context;
+
+/// Every defect of an axis of a domain, with counts and identities.
+///
+/// Works on any axis, however wrong.
+#[must_use]
+pub fn defects(domain: &Domain, axis: &MedialAxis) -> Verdict {
+    let mut defects = Vec::new();
+    let context = Context::new(domain, axis, &mut defects);
+    let counts = identities::counts(&context);
+    let mut left_out = Vec::new();
+    let exact = match axis.accuracy {
+        Accuracy::Exact => {
+            check_idle(&context, &mut defects);
+            let found = keypoints::check(&context, &mut defects);
+            paths::check(&context, &found, &mut defects);
+            if axis.complete {
+                boundary::check(&context, &found, &mut defects);
+            }
+            true
+        }
+        Accuracy::Sampled(spacing) => {
+            sampled::check(&context, spacing, &mut defects);
+            left_out.push(LeftOut::Governors);
+            false
+        }
+    };
+    if !(axis.complete && exact) {
+        left_out.extend([LeftOut::Leaves, LeftOut::Tiling, LeftOut::Area]);
+    }
+    let mut all = Vec::new();
+    if axis.complete {
+        all = identities::identities(&context, &counts);
+        if exact {
+            all.push(areas::identity(&context));
+        }
+    } else {
+        left_out.push(LeftOut::Counts);
+    }
+    let broken = all.iter().filter(|identity| !identity.holds());
+    defects.extend(broken.map(|&identity| Defect::Identity(identity)));
+    Verdict { defects, counts, identities: all, left_out }
+}
+
+/// Sites that neither a keypoint nor a path uses.
+fn check_idle(context: &Context, defects: &mut Vec<Defect>) {
+    let axis = context.axis;
+    let mut used = vec![false; axis.sites().len()];
+    for k in 0..axis.keypoints().len() as u32 {
+        axis.governors(k).iter().for_each(|&g| used[g as usize] = true);
+    }
+    for path in axis.paths() {
+        used[path.left as usize] = true;
+        used[path.right as usize] = true;
+    }
+    for (site, _) in used.iter().enumerate().filter(|&(_, &used)| !used) {
+        let at = axis.sites()[site].a;
+        defects.push(Defect::IdleSite { site: site as u32, at });
+    }
+}

@@ -1,0 +1,112 @@
+use super::box_tree::BoxTree;
+use super::enclosure::norm1;
+use super::{Defect, Name};
+use crate::axis::MedialAxis;
+use crate::domain::{Corner, Domain, Site};
+use crate::geom::Point;
+
+/// What every check reads.
+pub(super) struct Context<'a> {
+    pub(super) domain: &'a Domain,
+    pub(super) axis: &'a MedialAxis,
+    /// The element of the domain behind each site of the axis, if it has one.
+    pub(super) sites: Vec<Option<Site>>,
+    pub(super) tree: BoxTree,
+    /// Largest coordinate sum of a corner: what rounding errors near the boundary refer to.
+    pub(super) size: f64,
+}
+
+impl<'a> Context<'a> {
+    /// Matches the sites of the axis with the domain by name and by coordinates, bit for bit.
+    pub(super) fn new(domain: &'a Domain, axis: &'a MedialAxis, defects: &mut Vec<Defect>) -> Self {
+        let n = domain.edges().len() as u32;
+        let mut names: Vec<(Name, Site)> = (0..n)
+            .flat_map(|edge| [Site::edge(edge), Site::corner(edge)])
+            .filter(|&site| is_site(domain, site))
+            .map(|site| (Name::of(domain, site), site))
+            .collect();
+        names.sort_unstable();
+        let mut sites = Vec::with_capacity(axis.sites().len());
+        let mut first_use: Vec<Option<u32>> = vec![None; 2 * domain.edges().len()];
+        for (number, claimed) in axis.sites().iter().enumerate() {
+            let number = number as u32;
+            let name = Name {
+                kind: claimed.kind,
+                polygon: claimed.polygon,
+                ring: claimed.ring,
+                index: claimed.index,
+                part: claimed.part,
+            };
+            let at = claimed.a;
+            let found = names.partition_point(|(known, _)| *known < name);
+            let Some(&(_, site)) = names.get(found).filter(|(known, _)| *known == name) else {
+                defects.push(Defect::UnknownSite { site: number, name, at });
+                sites.push(None);
+                continue;
+            };
+            let start = domain.edge(site.index()).start;
+            let end = if site.is_edge() { domain.end(site.index()) } else { start };
+            if !same_bits(start, claimed.a) || !same_bits(end, claimed.b) {
+                defects.push(Defect::MovedSite { site: number, name, at: start });
+            }
+            match &mut first_use[site.0 as usize] {
+                Some(first) => {
+                    defects.push(Defect::RepeatedSite { first: *first, second: number, at });
+                    sites.push(None);
+                }
+                unused => {
+                    *unused = Some(number);
+                    sites.push(Some(site));
+                }
+            }
+        }
+        let size = domain.edges().iter().map(|edge| norm1(edge.start)).fold(0.0, f64::max);
+        Self { domain, axis, sites, tree: BoxTree::new(domain), size }
+    }
+
+    /// Position of keypoint number `keypoint`.
+    pub(super) fn position(&self, keypoint: u32) -> Point {
+        self.axis.keypoints()[keypoint as usize].position
+    }
+
+    /// The governors of a keypoint as elements of the domain; `None` if one is unknown.
+    pub(super) fn governors(&self, keypoint: u32) -> Option<Vec<Site>> {
+        self.axis.governors(keypoint).iter().map(|&g| self.sites[g as usize]).collect()
+    }
+
+    /// Closed distance of an edge from a point, in doubles.
+    pub(super) fn distance(&self, point: Point, edge: u32) -> f64 {
+        let (a, b) = (self.domain.edge(edge).start, self.domain.end(edge));
+        let (d, q) = (b - a, point - a);
+        if d.dot(q) <= 0.0 {
+            q.norm()
+        } else if d.dot(b - point) <= 0.0 {
+            (point - b).norm()
+        } else {
+            (d.cross(q) / d.norm()).abs()
+        }
+    }
+}
+
+/// Whether an element can govern: every edge, and every reflex corner.
+pub(super) fn is_site(domain: &Domain, site: Site) -> bool {
+    site.is_edge() || domain.edge(site.index()).corner == Corner::Reflex
+}
+
+/// Whether the contacts of two governors of one keypoint are one, `a` before `b` along the
+/// boundary: a corner and its own edge, or the two edges of a straight joint.
+pub(super) fn one_contact(domain: &Domain, a: Site, b: Site) -> bool {
+    match (a.is_edge(), b.is_edge()) {
+        (false, true) => a.index() == b.index(),
+        (true, false) => domain.edge(a.index()).next == b.index(),
+        (true, true) => {
+            domain.edge(a.index()).next == b.index()
+                && domain.edge(b.index()).corner == Corner::Straight
+        }
+        (false, false) => false,
+    }
+}
+
+fn same_bits(a: Point, b: Point) -> bool {
+    a.x.to_bits() == b.x.to_bits() && a.y.to_bits() == b.y.to_bits()
+}

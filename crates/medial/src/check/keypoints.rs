@@ -1,0 +1,412 @@
+//! Keypoint by keypoint: kind, governor list, exact disk, emptiness, position.
+
+use std::cmp::Ordering;
+use std::ops::ControlFlow;
+
+use super::context::{Context, one_contact};
+use super::direction::Contacts;
+use super::enclosure::{Enclosure, norm1};
+use super::maximal_disk::{MaximalDisk, ulp_of_scale};
+use super::{Defect, Name};
+use crate::axis::{Keypoint, KeypointKind};
+use crate::domain::{Corner, Site};
+use crate::geom::Point;
+
+/// How far positions and radii may be from the exact ones, in units in the last place of the
+/// largest of |x|, |y| and the radius: what exact engines promise.
+const POSITION_ULPS: f64 = 4.0;
+
+/// Relative error that covers a distance computed in doubles.
+const ROUNDING: f64 = 1.0 / (1u64 << 46) as f64;
+
+/// What the checks of paths and of the boundary need to know about the keypoints.
+pub(super) struct Keypoints {
+    /// The disk of each inner keypoint that has one.
+    pub(super) disks: Vec<Option<([Site; 3], Enclosure)>>,
+    /// Whether the governor list could be read: known sites, each once, at least two contacts.
+    pub(super) readable: Vec<bool>,
+    /// The places where paths leave.
+    pub(super) gaps: Vec<Gap>,
+    /// How many chains of paths start along each site of the domain.
+    pub(super) starts: Vec<u32>,
+    /// How many chains of paths end along each site of the domain.
+    pub(super) ends: Vec<u32>,
+}
+
+/// The place between two neighbouring contacts of a keypoint, where a path leaves.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct Gap {
+    pub(super) keypoint: u32,
+    /// Site number of the governor to the right of the leaving path.
+    pub(super) right: u32,
+    /// Site number of the governor to its left.
+    pub(super) left: u32,
+}
+
+/// Checks all keypoints.
+pub(super) fn check(context: &Context, defects: &mut Vec<Defect>) -> Keypoints {
+    let n = context.axis.keypoints().len();
+    let elements = 2 * context.domain.edges().len();
+    let mut found = Keypoints {
+        disks: vec![None; n],
+        readable: vec![false; n],
+        gaps: Vec::with_capacity(2 * context.axis.paths().len()),
+        starts: vec![0; elements],
+        ends: vec![0; elements],
+    };
+    let mut degrees = vec![0; n];
+    for path in context.axis.paths() {
+        degrees[path.from as usize] += 1;
+        degrees[path.to as usize] += 1;
+    }
+    // The keypoint that listed an element last, counted from 1.
+    let mut listed_by = vec![0u32; elements];
+    for (k, keypoint) in context.axis.keypoints().iter().enumerate() {
+        let number = k as u32;
+        let mut one = One { context, number, keypoint, degree: degrees[k], defects };
+        one.check_kind();
+        let Some(sites) = one.governors(&mut listed_by) else { continue };
+        if keypoint.kind == KeypointKind::End {
+            if one.check_end(&sites) {
+                found.readable[k] = true;
+                one.leave_end(&sites, &mut found);
+            }
+            continue;
+        }
+        let runs = one.runs(&sites);
+        if runs.len() < 2 || sites.len() < 3 {
+            one.report_two_governors();
+            continue;
+        }
+        found.readable[k] = true;
+        one.leave(&sites, &runs, &mut found);
+        let three = three_sites(&sites, &runs);
+        let guess = (keypoint.position, keypoint.radius);
+        let Some(disk) = MaximalDisk::new(context.domain, three, guess) else {
+            let at = keypoint.position;
+            one.defects.push(Defect::NoDisk { keypoint: number, at });
+            continue;
+        };
+        if one.check_contacts(&disk, &sites, &runs) {
+            one.check_empty(&disk, &listed_by);
+        }
+        one.check_position(disk.enclosure());
+        found.disks[k] = Some((disk.sites(), *disk.enclosure()));
+    }
+    check_repeated(context, defects);
+    found
+}
+
+/// A run of governors with one contact: the place of its first in the list, and their number.
+#[derive(Clone, Copy)]
+struct Run {
+    first: usize,
+    len: usize,
+}
+
+/// One keypoint under examination.
+struct One<'a, 'b> {
+    context: &'a Context<'a>,
+    number: u32,
+    keypoint: &'a Keypoint,
+    degree: usize,
+    defects: &'b mut Vec<Defect>,
+}
+
+impl One<'_, '_> {
+    fn check_kind(&mut self) {
+        let kind = match self.degree {
+            // Pruning and cutting leave tips and lone keypoints.
+            0 | 1 if !self.context.axis.complete => self.keypoint.kind,
+            1 => KeypointKind::End,
+            2 => KeypointKind::Transition,
+            _ => KeypointKind::Junction,
+        };
+        if self.keypoint.kind != kind || self.degree == 0 && self.context.axis.complete {
+            self.defects.push(Defect::Kind {
+                keypoint: self.number,
+                kind: self.keypoint.kind,
+                degree: self.degree,
+                at: self.keypoint.position,
+            });
+        }
+    }
+
+    /// The governors as elements of the domain, if all are known and none is listed twice.
+    fn governors(&mut self, listed_by: &mut [u32]) -> Option<Vec<Site>> {
+        let (keypoint, at) = (self.number, self.keypoint.position);
+        let list = self.context.axis.governors(keypoint);
+        if list.iter().min() != list.first() {
+            self.defects.push(Defect::ListStart { keypoint, at });
+        }
+        let sites = self.context.governors(keypoint)?;
+        let mut sound = true;
+        for (site, &number) in sites.iter().zip(list) {
+            let mark = &mut listed_by[site.0 as usize];
+            if *mark == keypoint + 1 {
+                self.defects.push(Defect::RepeatedGovernor { keypoint, site: number, at });
+                sound = false;
+            }
+            *mark = keypoint + 1;
+        }
+        sound.then_some(sites)
+    }
+
+    /// Whether an end is a convex corner with its two edges, bit for bit.
+    fn check_end(&mut self, sites: &[Site]) -> bool {
+        let domain = self.context.domain;
+        let at = self.keypoint.position;
+        let corner = end_corner(self.context, sites);
+        let sound = corner.is_some_and(|corner| {
+            let place = domain.edge(corner).start;
+            place.x.to_bits() == at.x.to_bits()
+                && place.y.to_bits() == at.y.to_bits()
+                && self.keypoint.radius.to_bits() == 0
+        });
+        if !sound {
+            self.defects.push(Defect::End { keypoint: self.number, at });
+        }
+        corner.is_some()
+    }
+
+    fn leave_end(&self, sites: &[Site], found: &mut Keypoints) {
+        let list = self.context.axis.governors(self.number);
+        let Some(corner) = end_corner(self.context, sites) else { return };
+        let out = usize::from(sites[0] != Site::edge(corner));
+        found.gaps.push(Gap { keypoint: self.number, right: list[out], left: list[1 - out] });
+        found.starts[sites[out].0 as usize] += 1;
+        found.ends[sites[1 - out].0 as usize] += 1;
+    }
+
+    /// Groups the list into runs with one contact each.
+    fn runs(&self, sites: &[Site]) -> Vec<Run> {
+        let n = sites.len();
+        let joined = |k: usize| one_contact(self.context.domain, sites[k], sites[(k + 1) % n]);
+        // Start behind a place where the contact changes.
+        let Some(start) = (0..n).find(|&k| !joined(k)).map(|k| k + 1) else { return Vec::new() };
+        let mut runs: Vec<Run> = Vec::with_capacity(n);
+        for step in 0..n {
+            let k = (start + step) % n;
+            match runs.last_mut() {
+                Some(run) if joined((k + n - 1) % n) => run.len += 1,
+                _ => runs.push(Run { first: k, len: 1 }),
+            }
+        }
+        runs
+    }
+
+    /// Records where paths leave an inner keypoint and where chains along the boundary change.
+    fn leave(&self, sites: &[Site], runs: &[Run], found: &mut Keypoints) {
+        let list = self.context.axis.governors(self.number);
+        let last = |run: Run| (run.first + run.len - 1) % list.len();
+        for (k, &run) in runs.iter().enumerate() {
+            let next = runs[(k + 1) % runs.len()];
+            found.gaps.push(Gap {
+                keypoint: self.number,
+                right: list[last(run)],
+                left: list[next.first],
+            });
+            if run.len > 1 {
+                found.starts[sites[last(run)].0 as usize] += 1;
+                found.ends[sites[run.first].0 as usize] += 1;
+            }
+        }
+    }
+
+    /// A keypoint with fewer than two contacts, or with two and nothing that changes.
+    fn report_two_governors(&mut self) {
+        let (keypoint, at) = (self.number, self.keypoint.position);
+        if self.degree == 2 {
+            self.defects.push(Defect::FakeTransition { keypoint, at });
+        } else {
+            self.defects.push(Defect::NoDisk { keypoint, at });
+        }
+    }
+
+    /// Whether every governor touches the disk, inside its zone, in the order of the list.
+    fn check_contacts(&mut self, disk: &MaximalDisk, sites: &[Site], runs: &[Run]) -> bool {
+        let (keypoint, at) = (self.number, self.keypoint.position);
+        let list = self.context.axis.governors(keypoint);
+        let before = self.defects.len();
+        for (&site, &number) in sites.iter().zip(list) {
+            if disk.side(site) != Ordering::Equal {
+                self.defects.push(Defect::NotTouching { keypoint, site: number, at });
+            }
+        }
+        if self.defects.len() > before {
+            return false;
+        }
+        for run in runs {
+            let members = (0..run.len).map(|k| (run.first + k) % sites.len());
+            // A corner and its own edge that both touch do so at the corner.
+            if members.clone().any(|k| run.len > 1 && !sites[k].is_edge()) {
+                continue;
+            }
+            for k in members {
+                if !disk.in_zone(sites[k]) {
+                    self.defects.push(Defect::OutsideZone { keypoint, site: list[k], at });
+                }
+            }
+        }
+        self.check_order(disk, sites, runs);
+        self.defects.len() == before
+    }
+
+    /// The contacts follow one another counterclockwise, once around.
+    fn check_order(&mut self, disk: &MaximalDisk, sites: &[Site], runs: &[Run]) {
+        let three = disk.sites();
+        let distinct = (0..3).all(|k| {
+            let (a, b) = (three[k], three[(k + 1) % 3]);
+            super::enclosure::common_contact(self.context.domain, a, b).is_none()
+        });
+        if runs.len() < 3 || runs.len() == 3 && distinct {
+            return;
+        }
+        let contacts = Contacts::new(self.context.domain, disk);
+        let site = |k: usize| sites[runs[k].first];
+        let mut half = 0;
+        for k in 1..runs.len() {
+            let here = contacts.half(site(0), site(k));
+            let ahead = match here.cmp(&half) {
+                Ordering::Greater => true,
+                Ordering::Less => false,
+                Ordering::Equal => contacts.turn(site(k - 1), site(k)) == Ordering::Greater,
+            };
+            if !ahead {
+                let list = self.context.axis.governors(self.number);
+                self.defects.push(Defect::Order {
+                    keypoint: self.number,
+                    first: list[runs[k - 1].first],
+                    second: list[runs[k].first],
+                    at: self.keypoint.position,
+                });
+                return;
+            }
+            half = here;
+        }
+    }
+
+    /// No other site cuts or touches the disk; reports the first that does.
+    fn check_empty(&mut self, disk: &MaximalDisk, listed_by: &[u32]) {
+        let (context, number) = (self.context, self.number);
+        let enclosure = disk.enclosure();
+        let (centre, radius) = (enclosure.centre(), enclosure.radius.value());
+        let margin = enclosure.bound + ROUNDING * (norm1(centre) + radius + context.size);
+        let at = self.keypoint.position;
+        let listed = |site: Site| listed_by[site.0 as usize] == number + 1;
+        let cut = |site| Defect::Cut { keypoint: number, by: Name::of(context.domain, site), at };
+        let missing = |site| Defect::MissingGovernor {
+            keypoint: number,
+            site: Name::of(context.domain, site),
+            at,
+        };
+        let reach = radius + margin;
+        let found = context.tree.near(
+            centre,
+            &mut (),
+            |()| reach,
+            |(), edge| {
+                let distance = context.distance(centre, edge);
+                if distance > reach {
+                    return ControlFlow::Continue(());
+                }
+                if distance < radius - margin {
+                    return ControlFlow::Break(cut(Site::edge(edge)));
+                }
+                let corner = Site::corner(edge);
+                let start = context.domain.edge(edge).start;
+                if !listed(corner) && (centre - start).norm() <= reach {
+                    match disk.side(corner) {
+                        Ordering::Less => return ControlFlow::Break(cut(corner)),
+                        Ordering::Equal if disk.in_zone(corner) => {
+                            return ControlFlow::Break(missing(corner));
+                        }
+                        // A convex or straight corner is touched only with its edges.
+                        _ => {}
+                    }
+                }
+                if !listed(Site::edge(edge)) {
+                    match disk.touch(edge) {
+                        Some(Ordering::Less) => return ControlFlow::Break(cut(Site::edge(edge))),
+                        Some(Ordering::Equal) => {
+                            return ControlFlow::Break(missing(Site::edge(edge)));
+                        }
+                        _ => {}
+                    }
+                }
+                ControlFlow::Continue(())
+            },
+        );
+        self.defects.extend(found);
+    }
+
+    fn check_position(&mut self, disk: &Enclosure) {
+        let (keypoint, at) = (self.number, disk.centre());
+        let position = self.keypoint.position;
+        let ulp = ulp_of_scale(at, disk.radius.value());
+        let off = |exact: super::double_double::DoubleDouble, claimed: f64| {
+            let off = (exact - claimed.into()).magnitude();
+            if off.is_nan() { f64::INFINITY } else { off }
+        };
+        let limit = POSITION_ULPS * ulp + disk.bound;
+        let moved = off(disk.x, position.x).max(off(disk.y, position.y));
+        if moved > limit {
+            self.defects.push(Defect::Position { keypoint, ulps: moved / ulp, at });
+        }
+        let grown = off(disk.radius, self.keypoint.radius);
+        if grown > limit {
+            self.defects.push(Defect::Radius { keypoint, ulps: grown / ulp, at });
+        }
+    }
+}
+
+/// The edge that leaves the convex corner whose two edges these are.
+fn end_corner(context: &Context, sites: &[Site]) -> Option<u32> {
+    let &[a, b] = sites else { return None };
+    if !a.is_edge() || !b.is_edge() {
+        return None;
+    }
+    let follows = |a: Site, b: Site| {
+        context.domain.edge(a.index()).next == b.index()
+            && context.domain.edge(b.index()).corner == Corner::Convex
+    };
+    if follows(a, b) {
+        Some(b.index())
+    } else if follows(b, a) {
+        Some(a.index())
+    } else {
+        None
+    }
+}
+
+/// Three elements that fix the disk: of three contacts, or a contact at a corner and another one.
+fn three_sites(sites: &[Site], runs: &[Run]) -> [Site; 3] {
+    let member = |run: Run, k: usize| sites[(run.first + k) % sites.len()];
+    if let [first, second] = *runs {
+        let (run, other) = if first.len > 1 { (first, second) } else { (second, first) };
+        let (a, b) = (member(run, 0), member(run, 1));
+        // At a straight joint the corner stands for the first edge.
+        let a = if a.is_edge() && b.is_edge() { Site::corner(b.index()) } else { a };
+        // A corner allows exact numbers of lower degree.
+        let other = (0..other.len).map(|k| member(other, k)).min_by_key(|site| site.is_edge());
+        return [a, b, other.unwrap_or(b)];
+    }
+    let n = runs.len();
+    [0, n / 3, 2 * n / 3].map(|k| {
+        let run = runs[k];
+        (0..run.len).map(|k| member(run, k)).min_by_key(|site| site.is_edge()).unwrap_or(sites[0])
+    })
+}
+
+/// No two keypoints have one list.
+fn check_repeated(context: &Context, defects: &mut Vec<Defect>) {
+    let mut order: Vec<u32> = (0..context.axis.keypoints().len() as u32).collect();
+    order.sort_by_key(|&k| context.axis.governors(k));
+    for pair in order.windows(2) {
+        let (first, second) = (pair[0], pair[1]);
+        if context.axis.governors(first) == context.axis.governors(second) {
+            let at: Point = context.position(first);
+            defects.push(Defect::RepeatedKeypoint { first, second, at });
+        }
+    }
+}
