@@ -84,6 +84,16 @@ impl MedialAxis {
         self.governors(keypoint).iter().map(move |&g| self.sites()[g as usize].footpoint(centre))
     }
 
+    /// The shape of a path's curve, told by its governors alone.
+    ///
+    /// # Panics
+    /// If `path` names a site the axis does not have.
+    #[must_use]
+    pub fn curve_kind(&self, path: &Path) -> CurveKind {
+        let [left, right] = self.path_governors(path);
+        if left.kind == right.kind { CurveKind::Line } else { CurveKind::Parabola }
+    }
+
     /// The two governors of a path: left and right of its direction.
     ///
     /// # Panics
