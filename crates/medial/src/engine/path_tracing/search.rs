@@ -146,7 +146,7 @@ impl<'a> Search<'a> {
 
     /// The disk that would make `site` the third governor, if doubles find one ahead.
     pub fn propose(&self, gap: &Gap, site: Site) -> Option<Proposal> {
-        if site == gap.right || site == gap.left || self.banned.contains(&site) {
+        if !self.may_be_third(gap, site) {
             return None;
         }
         let governors = self.triple(gap, site).map(|s| self.domain.governor(s));
@@ -162,6 +162,20 @@ impl<'a> Search<'a> {
         let position = gap.course.position(&disk);
         let slack = 1e-9 * (disk.radius + gap.start.radius) + 1e-13 * position.abs();
         (position >= gap.position - slack).then_some(Proposal { site, disk, position })
+    }
+
+    /// Whether a site can be met ahead: not the governors, and not what their footpoints have
+    /// left behind.
+    fn may_be_third(&self, gap: &Gap, site: Site) -> bool {
+        let (right, left) = (gap.right, gap.left);
+        let left_behind = if site.is_edge() {
+            (!right.is_edge() && site.index() == self.domain.edge(right.index()).prev)
+                || (!left.is_edge() && site.index() == left.index())
+        } else {
+            (right.is_edge() && site.index() == right.index())
+                || (left.is_edge() && site.index() == self.domain.edge(left.index()).next)
+        };
+        site != right && site != left && !left_behind && !self.banned.contains(&site)
     }
 
     fn triple(&self, gap: &Gap, site: Site) -> [Site; 3] {
@@ -409,7 +423,7 @@ impl<'a> Search<'a> {
         let start = gap.start.triple.and_then(|t| self.exact(&t));
         let mut first: Option<(Site, ExactDisk)> = None;
         for &site in sites {
-            if site == gap.right || site == gap.left || self.banned.contains(&site) {
+            if !self.may_be_third(gap, site) {
                 continue;
             }
             let Some(disk) = self.exact(&self.triple(gap, site)) else { continue };
