@@ -60,8 +60,6 @@ pub(super) struct Gap {
     pub left: Site,
     pub start: Start,
     pub course: Course,
-    /// Position of the start along the course.
-    pub position: f64,
 }
 
 /// Tries before only exact arithmetic proposes.
@@ -93,14 +91,9 @@ impl<'a> Search<'a> {
     pub fn find(&mut self, right: Site, left: Site, start: Start) -> Result<Found, EngineError> {
         self.tried.clear();
         self.banned.clear();
-        let course = Course::new(self.domain.governor(right), self.domain.governor(left));
-        let here = TouchingDisk {
-            origin: start.centre,
-            centre: Point::default(),
-            radius: start.radius,
-            bound: 0.0,
-        };
-        let gap = Gap { right, left, start, course, position: course.position(&here) };
+        let [r, l] = [right, left].map(|s| self.domain.governor(s));
+        let course = Course::new(r, l, start.centre, start.radius);
+        let gap = Gap { right, left, start, course };
         let mut found = if self.runs_into_corner(&gap) {
             Found::Corner(left.index())
         } else {
@@ -160,8 +153,8 @@ impl<'a> Search<'a> {
             }
         }
         let position = gap.course.position(&disk);
-        let slack = 1e-9 * (disk.radius + gap.start.radius) + 1e-13 * position.abs();
-        (position >= gap.position - slack).then_some(Proposal { site, disk, position })
+        let slack = 1e-9 * (disk.radius + gap.start.radius);
+        (position >= -slack).then_some(Proposal { site, disk, position })
     }
 
     /// Whether a site can be met ahead: not the governors, and not what their footpoints have
@@ -210,7 +203,7 @@ impl<'a> Search<'a> {
         let mut growing = true;
         // Doubling exponents end long before this.
         for _ in 0..1100 {
-            let mut position = gap.position + reach;
+            let mut position = reach;
             if best.is_some_and(|b| b.position <= position + reach) || !position.is_finite() {
                 break;
             }
@@ -256,7 +249,7 @@ impl<'a> Search<'a> {
             let governors = self.triple(gap, site).map(|s| self.domain.governor(s));
             let Some(disk) = TouchingDisk::guess(&governors, gap.start.centre) else { continue };
             let position = gap.course.position(&disk);
-            if position > gap.position && first.is_none_or(|f| position < f.1) {
+            if position > 0.0 && first.is_none_or(|f| position < f.1) {
                 first = Some((disk, position));
             }
         }
@@ -268,9 +261,11 @@ impl<'a> Search<'a> {
         let mut best = first;
         // Sites seen to cut a disk, or to stand at the end of a governor.
         let mut seen: Vec<Site> = Vec::new();
+        // How many of them the last resort has weighed; all there are, if the greatest number.
+        let mut known = 0;
         for round in 0..100_000_usize {
             let Some(proposal) = best else {
-                best = self.last_resort(gap, &mut seen, round)?;
+                best = self.last_resort(gap, &mut seen, &mut known)?;
                 continue;
             };
             let triple = self.triple(gap, proposal.site);
@@ -344,21 +339,24 @@ impl<'a> Search<'a> {
         &mut self,
         gap: &Gap,
         seen: &mut Vec<Site>,
-        round: usize,
+        known: &mut usize,
     ) -> Result<Option<Proposal>, EngineError> {
         for site in [self.domain.ahead(gap.right), self.domain.behind(gap.left)] {
             if !seen.contains(&site) && !self.banned.contains(&site) {
                 seen.push(site);
             }
         }
-        if let Some(site) = self.exact_first(gap, seen) {
+        // Something new was met since the last time: the earliest of it may be the end.
+        if seen.len() != std::mem::replace(known, seen.len())
+            && let Some(site) = self.exact_first(gap, seen)
+        {
             return Ok(self.proposal_or_exact(gap, site));
         }
         // Nothing that was met will do: take in everything, however far.
-        let everything = 2 * self.domain.edges().len();
-        if seen.len() >= everything || round > 1000 {
+        if *known == usize::MAX {
             return Err(self.broken(gap));
         }
+        *known = usize::MAX;
         let edges = self.tree.items();
         seen.clear();
         for k in edges {
@@ -477,8 +475,7 @@ impl<'a> Search<'a> {
     fn is_ahead(&self, gap: &Gap, disk: &TouchingDisk, triple: &[Site; 3]) -> bool {
         let Some(start) = gap.start.triple else { return true };
         let position = gap.course.position(disk);
-        let doubt = 1e-6 * (disk.radius + gap.start.radius) + 1e-9 * position.abs();
-        if position > gap.position + doubt {
+        if position > 1e-6 * (disk.radius + gap.start.radius) + disk.bound {
             return true;
         }
         match (self.exact(&start), self.exact(triple)) {

@@ -201,13 +201,13 @@ impl<'s, 'a> Verify<'s, 'a> {
             }
             contacts.push(site);
             let reflex = |k: u32| domain.edge(k).corner == Corner::Reflex;
-            if at_start == Ordering::Equal && reflex(edge) {
-                contacts.push(Site::corner(edge));
-            }
-            if at_end == Ordering::Equal && reflex(next) {
-                contacts.push(Site::corner(next));
+            for (side, corner) in [(at_start, edge), (at_end, next)] {
+                if side == Ordering::Equal && reflex(corner) && !corner_at(corner) {
+                    contacts.push(Site::corner(corner));
+                }
             }
         }
+        let mut cut: Vec<Site> = Vec::new();
         for &edge in &self.doubtful {
             if !need(&mut exact) {
                 return Verdict::OffEdge;
@@ -215,12 +215,15 @@ impl<'s, 'a> Verify<'s, 'a> {
             let Some(disk) = &exact else { return Verdict::OffEdge };
             match search.touch(disk, edge) {
                 Touch::Clear => {}
-                Touch::Cut => return Verdict::Cut(self.sites_of(edge).collect()),
+                Touch::Cut => cut.extend(self.sites_of(edge)),
                 Touch::Contact { edge: on_edge, corner } => {
                     contacts.extend(on_edge.then_some(Site::edge(edge)));
                     contacts.extend(corner);
                 }
             }
+        }
+        if !cut.is_empty() {
+            return Verdict::Cut(cut);
         }
         contacts::sort(domain, &self.certified, exact.as_ref(), &self.triple, &mut contacts);
         Verdict::Clear(contacts)
