@@ -8,6 +8,7 @@
 use std::cmp::Ordering;
 
 use super::course::Course;
+use super::front::Front;
 use super::rings::HiddenRings;
 use super::touch::{Touch, touch};
 use super::verify::{Verdict, Verify};
@@ -32,6 +33,8 @@ pub struct Candidate {
 pub(super) struct Start {
     pub centre: Point,
     pub radius: f64,
+    /// Bound on the error of both.
+    pub doubt: f64,
     /// Governors whose exact disk this is; `None` at a convex corner.
     pub triple: Option<[Site; 3]>,
 }
@@ -60,6 +63,7 @@ pub(super) struct Gap {
     pub left: Site,
     pub start: Start,
     pub course: Course,
+    pub front: Option<Front>,
 }
 
 /// Tries before only exact arithmetic proposes.
@@ -93,7 +97,8 @@ impl<'a> Search<'a> {
         self.banned.clear();
         let [r, l] = [right, left].map(|s| self.domain.governor(s));
         let course = Course::new(r, l, start.centre, start.radius);
-        let gap = Gap { right, left, start, course };
+        let front = Front::new(self.domain, right, left);
+        let gap = Gap { right, left, start, course, front };
         let mut found = if self.runs_into_corner(&gap) {
             Found::Corner(left.index())
         } else {
@@ -285,7 +290,6 @@ impl<'a> Search<'a> {
             let mut verify = Verify::certified(self, gap, triple, disk, position, floating);
             verify.run();
             let verdict = verify.verdict(exact);
-            if std::env::var("DBG").is_ok() && round < 20 { eprintln!("gap {:?} {:?} from {:?} r {} : {:?} disk {:?} r {} bound {} -> {:?}", gap.right, gap.left, gap.start.centre, gap.start.radius, triple, disk.position(), disk.radius, disk.bound, verdict); }
             match verdict {
                 Verdict::Better(next) => best = Some(next),
                 Verdict::Cut(sites) => {

@@ -1,6 +1,8 @@
 use std::cmp::Ordering;
+use std::ops::Range;
 
 use super::contacts;
+use super::front::Lune;
 use super::search::{Gap, Proposal, Search};
 use super::touch::Touch;
 use crate::domain::{Corner, Site};
@@ -39,6 +41,7 @@ pub(super) struct Verify<'s, 'a> {
     floating: bool,
     centre: Point,
     reach2: f64,
+    lune: Lune,
     cut: Vec<u32>,
     doubtful: Vec<u32>,
 }
@@ -65,6 +68,7 @@ impl<'s, 'a> Verify<'s, 'a> {
             floating,
             centre: Point::default(),
             reach2: 0.0,
+            lune: Lune::EVERYTHING,
             cut: Vec::new(),
             doubtful: Vec::new(),
         };
@@ -101,6 +105,8 @@ impl<'s, 'a> Verify<'s, 'a> {
         let bound = if disk.bound.is_finite() { disk.bound } else { 0.0 };
         let reach = (disk.radius + bound) * (1.0 + 64.0 * U) + 64.0 * U * size;
         self.reach2 = reach * reach * (1.0 + 8.0 * U);
+        let start = &self.gap.start;
+        self.lune = Lune::new(start.centre, start.radius, start.doubt, &disk);
     }
 
     /// Sites of an edge that could become third governors.
@@ -253,14 +259,19 @@ impl<'s, 'a> Verify<'s, 'a> {
 
 impl Visitor for Verify<'_, '_> {
     #[inline]
-    fn enters(&self, bounds: &Rect) -> bool {
+    fn enters(&self, bounds: &Rect, items: Range<u32>) -> bool {
         bounds.distance2(self.centre) <= self.reach2
+            && self.lune.meets(bounds)
+            && self.gap.front.is_none_or(|f| f.meets(&items))
     }
 
     fn item(&mut self, edge: u32) {
         let domain = self.search.domain;
         let site = Site::edge(edge);
-        if site == self.gap.right || site == self.gap.left {
+        if site == self.gap.right
+            || site == self.gap.left
+            || self.gap.front.is_some_and(|f| !f.holds(edge))
+        {
             return;
         }
         let record = domain.edge(edge);
