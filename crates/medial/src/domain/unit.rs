@@ -16,7 +16,11 @@ pub(super) fn unit_vector(a: Point, b: Point) -> (Point, f64) {
         return (Point::new(0.0, 1f64.copysign(y)), y.abs());
     }
     let length = (dx * dx + dy * dy).sqrt();
-    (Point::new((dx / length).value(), (dy / length).value()), length.value())
+    let quotient = |d: Double| {
+        let q = d.value() / length.value();
+        q + (d - length * Double::from(q)).value() / length.value()
+    };
+    (Point::new(quotient(dx), quotient(dy)), length.value())
 }
 
 #[cfg(test)]

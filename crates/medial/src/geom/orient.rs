@@ -50,6 +50,11 @@ fn exact_cross(a: Point, b: Point, c: Point, d: Point) -> f64 {
     let uy = two_sum(b.y, -a.y);
     let vx = two_sum(d.x, -c.x);
     let vy = two_sum(d.y, -c.y);
+    if [ux, uy, vx, vy].iter().all(|v| v.1 == 0.0) {
+        // Rounding is monotonic: the errors of the products count only if the products are equal.
+        let (left, right) = (two_product(ux.0, vy.0), two_product(uy.0, vx.0));
+        return if left.0 == right.0 { left.1 - right.1 } else { left.0 - right.0 };
+    }
     let mut sum = Expansion::default();
     for (i, j) in [(ux.0, vy.0), (ux.0, vy.1), (ux.1, vy.0), (ux.1, vy.1)] {
         sum.add_product(i, j);
