@@ -1,7 +1,13 @@
 //! The answer: keypoints and paths, each path labelled with its two governors.
 
+mod curve;
+mod draw;
 mod medial_axis;
+mod names;
 
+pub use curve::Curve;
+pub use draw::CurveKind;
 pub use medial_axis::{
     Accuracy, Engine, Keypoint, KeypointKind, MedialAxis, Path, Side, Site, SiteKind,
 };
+pub use names::UnknownName;

@@ -1,5 +1,9 @@
-use super::{Domain, DomainError, Origin, Place, Repair, Report};
-use crate::domain::CornerOrigin;
+use super::assemble::assemble;
+use super::lines::supporting_lines;
+use super::nesting;
+use super::rings::Rings;
+use super::sweep::{Arrangement, Purpose, sweep};
+use super::{Domain, DomainError, Place, Repair, Report};
 use crate::geom::Point;
 
 /// How to treat input that is not valid as it stands.
@@ -14,54 +18,81 @@ pub struct Options {
 impl Domain {
     /// Validates polygons, each a list of rings, the first of them the outer one.
     ///
-    /// The rings need not be closed, and may run either way round.
+    /// The rings need not be closed, and may run either way round. O(n log n) for n vertices;
+    /// every decision is exact.
+    ///
+    /// ```
+    /// use medial::domain::{Domain, Options};
+    /// use medial::geom::Point;
+    ///
+    /// let square = [(0.0, 0.0), (2.0, 0.0), (2.0, 2.0), (0.0, 2.0)].map(|(x, y)| Point::new(x, y));
+    /// let domain = Domain::from_polygons(&[vec![square.to_vec()]], &Options::default())?;
+    /// assert_eq!((domain.edges().len(), domain.area()), (4, 4.0));
+    ///
+    /// let bow_tie = [square[0], square[2], square[1], square[3]].to_vec();
+    /// let error = Domain::from_polygons(&[vec![bow_tie]], &Options::default()).unwrap_err();
+    /// assert_eq!(error.code(), "crossing");
+    /// # Ok::<(), medial::domain::DomainError>(())
+    /// ```
     ///
     /// # Errors
     /// [`DomainError`] says where and why the polygons do not bound a domain.
     pub fn from_polygons(
         polygons: &[Vec<Vec<Point>>],
-        _options: &Options,
+        options: &Options,
     ) -> Result<Self, DomainError> {
-        let lone = polygons.len() == 1;
         let mut report = Report::default();
-        let mut walks = Vec::new();
-        for (polygon, rings) in polygons.iter().enumerate() {
-            for (ring, points) in rings.iter().enumerate() {
-                let (polygon, ring) = (polygon as u32, ring as u32);
-                let place = |index: usize| Place { polygon, ring, index: index as u32, lone };
-                let mut kept: Vec<(u32, Point)> = Vec::with_capacity(points.len());
-                for (k, &p) in points.iter().enumerate() {
-                    if !(p.x.is_finite() && p.y.is_finite()) {
-                        return Err(DomainError::NotFinite { at: place(k), x: p.x, y: p.y });
-                    }
-                    if kept.last().is_none_or(|l| l.1 != p) {
-                        kept.push((k as u32, p));
-                    }
+        let mut rings = Rings::clean(polygons, options, &mut report)?;
+        if options.regroup {
+            nesting::regroup(&mut rings, &mut report)?;
+        }
+        let found = sweep(&rings, Purpose::Validate)?;
+        let refusal = found.bridge.or(found.self_touch).or(found.shared_edge);
+        if let (true, Some(error)) = (options.strict, refusal) {
+            return Err(error);
+        }
+        note_touches(&rings, &found, &mut report);
+        let walks = assemble(&rings, &found)?;
+        let edges: Vec<_> = (0..rings.points.len() as u32)
+            .map(|edge| (rings.point(edge), rings.point(rings.next(edge))))
+            .collect();
+        let mut domain = Self::from_walks(walks, &supporting_lines(&edges), report);
+        let mut outer = vec![0; polygons.len()];
+        for ring in rings.rings.iter().filter(|ring| !ring.hole) {
+            outer[ring.polygon as usize] += 1;
+        }
+        for (polygon, parts) in (0..).zip(domain.parts(polygons.len())) {
+            let at = Place { polygon, ring: 0, index: 0, lone: rings.lone };
+            if parts == 0 {
+                return Err(DomainError::Empty { at });
+            } else if parts > outer[polygon as usize] {
+                if options.strict {
+                    return Err(DomainError::CutInterior { at, parts });
                 }
-                while kept.len() > 1 && kept[0].1 == kept[kept.len() - 1].1 {
-                    kept.pop();
-                }
-                let n = kept.len();
-                if n < 3 {
-                    return Err(DomainError::TooFewPoints { at: place(0), found: n as u32 });
-                }
-                let o = kept[0].1;
-                let area: f64 =
-                    (0..n).map(|k| (kept[k].1 - o).cross(kept[(k + 1) % n].1 - o)).sum();
-                let reversed = (area < 0.0) == (ring == 0);
-                if reversed {
-                    kept.reverse();
-                    report.push(Repair::Reversed, polygon, ring, Vec::new());
-                }
-                let walk = (0..n).map(|k| {
-                    let (index, start) = kept[k];
-                    let edge = if reversed { kept[(k + 1) % n].0 } else { index };
-                    let corner = CornerOrigin { ring, index, part: 0 };
-                    (start, Origin { polygon, ring, index: edge, part: 0, corner })
-                });
-                walks.push(walk.collect());
+                domain.report.push(Repair::CutInterior, polygon, 0, Vec::new());
             }
         }
-        Ok(Self::from_walks(&walks, report))
+        Ok(domain)
+    }
+}
+
+/// Reports what touching rings led to.
+fn note_touches(rings: &Rings, found: &Arrangement, report: &mut Report) {
+    let cut = found.cuts.iter().map(|c| c.0);
+    let removed = found.removed.iter().map(|p| p.edge);
+    let lists: [(Repair, Vec<u32>); 3] = [
+        (Repair::SplitEdge, cut.collect()),
+        (Repair::SelfTouch, found.self_touches.clone()),
+        (Repair::Bridge, removed.collect()),
+    ];
+    for (repair, mut edges) in lists {
+        edges.sort_unstable();
+        edges.dedup();
+        for same in edges.chunk_by(|&a, &b| rings.ring[a as usize] == rings.ring[b as usize]) {
+            let ring = rings.ring_of(same[0]);
+            let mut indices: Vec<u32> = same.iter().map(|&e| rings.edge_index(e)).collect();
+            indices.sort_unstable();
+            report.push(repair, ring.polygon, ring.index, indices);
+        }
     }
 }

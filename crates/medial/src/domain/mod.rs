@@ -1,9 +1,18 @@
 //! The shape: rings of doubles, validated once, as boundary walks with the interior on the left.
 
+mod area;
+mod assemble;
 mod build;
 mod error;
+mod junction;
+mod lines;
+mod nesting;
 mod report;
+mod rings;
 mod sites;
+mod status;
+mod sweep;
+mod unit;
 mod walks;
 
 pub use build::Options;

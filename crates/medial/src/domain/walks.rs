@@ -1,5 +1,8 @@
 use super::Report;
-use crate::geom::{Point, orient2d};
+use super::area::twice_area;
+use super::assemble::Walks;
+use super::unit::unit_vector;
+use crate::geom::{Point, orient2d, two_sum};
 
 /// A boundary element: an open edge, or the corner at the start of an edge.
 ///
@@ -121,57 +124,45 @@ pub struct Domain {
     edges: Vec<Edge>,
     origins: Vec<Origin>,
     walks: Vec<Walk>,
-    report: Report,
+    pub(super) report: Report,
 }
 
 impl Domain {
-    /// Builds the records from closed walks of distinct consecutive points, interior on the left.
-    ///
-    /// The caller guarantees validity: simple up to touching, directed, without spikes.
-    /// Edge k of a walk starts at point k; `polygon` is taken from the first origin of a walk.
-    pub(super) fn from_walks(walks: &[Vec<(Point, Origin)>], report: Report) -> Self {
-        let n = walks.iter().map(Vec::len).sum();
-        let mut domain = Self {
-            edges: Vec::with_capacity(n),
-            origins: Vec::with_capacity(n),
-            walks: Vec::with_capacity(walks.len()),
-            report,
-        };
-        for walk in walks {
-            let first = domain.edges.len() as u32;
-            let len = walk.len() as u32;
-            let id = domain.walks.len() as u32;
-            let mut lowest = 0;
-            for (k, &(start, origin)) in walk.iter().enumerate() {
-                let k = k as u32;
-                let before = walk[((k + len - 1) % len) as usize].0;
-                let end = walk[((k + 1) % len) as usize].0;
-                if start.lexicographic(walk[lowest].0).is_lt() {
-                    lowest = k as usize;
-                }
-                let d = end - start;
-                let length = d.norm();
-                domain.edges.push(Edge {
+    /// Builds the records from closed walks, which are valid: simple up to touching, directed,
+    /// without spikes. `lines` gives the supporting line of each source edge.
+    pub(super) fn from_walks(walks: Walks, lines: &[u32], report: Report) -> Self {
+        let n = walks.starts.len();
+        let mut edges: Vec<Edge> = Vec::with_capacity(n);
+        let mut records = Vec::with_capacity(walks.lens.len());
+        let mut least_on_line = vec![u32::MAX; lines.len()];
+        let mut first = 0;
+        for (id, &len) in walks.lens.iter().enumerate() {
+            let points = &walks.starts[first as usize..(first + len) as usize];
+            let at = |k: u32| points[(if k < len { k } else { k - len }) as usize];
+            for k in 0..len {
+                let (start, end) = (at(k), at(k + 1));
+                let (direction, length) = unit_vector(start, end);
+                let edge = first + k;
+                let line = lines[walks.sources[edge as usize] as usize] as usize;
+                // Numbers rise, so the first one met is the least.
+                least_on_line[line] = least_on_line[line].min(edge);
+                edges.push(Edge {
                     start,
-                    direction: Point::new(d.x / length, d.y / length),
+                    direction,
                     length,
-                    next: first + (k + 1) % len,
-                    prev: first + (k + len - 1) % len,
-                    walk: id,
-                    line: first + k,
-                    corner: turn(before, start, end),
+                    next: if k + 1 < len { edge + 1 } else { first },
+                    prev: if k > 0 { edge - 1 } else { first + len - 1 },
+                    walk: id as u32,
+                    line: least_on_line[line],
+                    corner: turn(at(k + len - 1), start, end),
                 });
-                domain.origins.push(origin);
             }
-            domain.walks.push(Walk {
-                first,
-                len,
-                // At its first point in lexicographic order an outer walk turns left.
-                hole: domain.edges[first as usize + lowest].corner != Corner::Convex,
-                polygon: walk[0].1.polygon,
-            });
+            let walk = &edges[first as usize..];
+            let polygon = walks.origins[first as usize].polygon;
+            records.push(Walk { first, len, hole: surrounds_a_hole(walk), polygon });
+            first += len;
         }
-        domain
+        Self { edges, origins: walks.origins, walks: records, report }
     }
 
     /// All edges, walk by walk in boundary order.
@@ -221,6 +212,50 @@ impl Domain {
     pub fn n_components(&self) -> usize {
         self.walks.iter().filter(|w| !w.hole).count()
     }
+
+    /// Connected components of the interior of each polygon.
+    pub(super) fn parts(&self, polygons: usize) -> Vec<u32> {
+        let mut parts = vec![0; polygons];
+        for walk in self.walks.iter().filter(|w| !w.hole) {
+            parts[walk.polygon as usize] += 1;
+        }
+        parts
+    }
+
+    /// Area of the domain, in squared units of the input: summed in twice the precision of a
+    /// double, then rounded.
+    #[must_use]
+    pub fn area(&self) -> f64 {
+        let (mut sum, mut error) = (0.0, 0.0);
+        for walk in 0..self.walks.len() as u32 {
+            let (high, low) = self.twice_area(walk);
+            let (s, e) = two_sum(sum, high);
+            sum = s;
+            error += e + low;
+        }
+        0.5 * (sum + error)
+    }
+
+    /// Area that one walk encloses, negative if it surrounds a hole; summed in twice the
+    /// precision of a double, then rounded.
+    #[must_use]
+    pub fn signed_area(&self, walk: u32) -> f64 {
+        let (high, low) = self.twice_area(walk);
+        0.5 * (high + low)
+    }
+
+    fn twice_area(&self, walk: u32) -> (f64, f64) {
+        let Walk { first, len, .. } = self.walks[walk as usize];
+        let edges = &self.edges[first as usize..(first + len) as usize];
+        twice_area(edges.iter().map(|e| e.start))
+    }
+}
+
+/// Whether a walk surrounds a hole: an outer walk turns left wherever it passes its first point in
+/// lexicographic order, and one around a hole turns right there once.
+fn surrounds_a_hole(walk: &[Edge]) -> bool {
+    let lowest = walk.iter().map(|e| e.start).min_by(|a, b| a.lexicographic(*b));
+    walk.iter().any(|e| Some(e.start) == lowest && e.corner == Corner::Reflex)
 }
 
 fn turn(before: Point, at: Point, after: Point) -> Corner {

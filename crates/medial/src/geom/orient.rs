@@ -99,7 +99,7 @@ impl Expansion {
 
 /// The rounded sum and its exact error.
 #[inline]
-pub(super) fn two_sum(a: f64, b: f64) -> (f64, f64) {
+pub(crate) fn two_sum(a: f64, b: f64) -> (f64, f64) {
     let sum = a + b;
     let b_part = sum - a;
     let a_part = sum - b_part;
@@ -108,13 +108,13 @@ pub(super) fn two_sum(a: f64, b: f64) -> (f64, f64) {
 
 /// The rounded difference and its exact error.
 #[inline]
-pub(super) fn two_diff(a: f64, b: f64) -> (f64, f64) {
+pub(crate) fn two_diff(a: f64, b: f64) -> (f64, f64) {
     two_sum(a, -b)
 }
 
 /// The rounded product and its exact error, if neither overflows nor underflows.
 #[inline]
-pub(super) fn two_product(a: f64, b: f64) -> (f64, f64) {
+pub(crate) fn two_product(a: f64, b: f64) -> (f64, f64) {
     let product = a * b;
     let ((a1, a0), (b1, b0)) = (split(a), split(b));
     (product, a0 * b0 - (((product - a1 * b1) - a0 * b1) - a1 * b0))

@@ -36,6 +36,17 @@ impl Shape {
 
     /// Three elements that touch the circle counterclockwise, and a fourth that touches it too.
     pub fn touching(self, random: &mut Random) -> ([Element; 3], Element) {
+        let corners = random.below(4);
+        let (first, second, third) = (corners > 0, corners > 1, corners > 2);
+        self.touching_as(random, [first, second, third, corners.is_multiple_of(2)])
+    }
+
+    /// The same, four corners or four edges.
+    pub fn touching_of_kind(self, random: &mut Random, corner: bool) -> ([Element; 3], Element) {
+        self.touching_as(random, [corner; 4])
+    }
+
+    fn touching_as(self, random: &mut Random, corner: [bool; 4]) -> ([Element; 3], Element) {
         let points = integer_points();
         let mut chosen = Vec::new();
         while chosen.len() < 3 {
@@ -45,7 +56,6 @@ impl Shape {
             }
         }
         chosen.sort_unstable();
-        let corners = random.below(4);
         let mut element = |k: usize, corner: bool| {
             let (x, y) = points[k];
             if corner {
@@ -58,8 +68,8 @@ impl Shape {
                 self.place((x - ahead * y, y + ahead * x)),
             )
         };
-        let elements = [0, 1, 2].map(|i| element(chosen[i], (i as u64) < corners));
-        let fourth = element((chosen[0] + 1 + chosen[2]) % points.len(), corners % 2 == 0);
+        let elements = [0, 1, 2].map(|i| element(chosen[i], corner[i]));
+        let fourth = element((chosen[0] + 1 + chosen[2]) % points.len(), corner[3]);
         (elements, fourth)
     }
 }

@@ -5,3 +5,4 @@ mod circle;
 mod consistency;
 mod random;
 mod reference;
+mod stages;

@@ -124,8 +124,8 @@ impl<'a> Search<'a> {
             if hidden.is_empty() {
                 return Ok(found);
             }
-            let site = self.exact_first(&gap, &hidden).ok_or_else(|| self.broken(&gap))?;
             self.banned.clear();
+            let site = self.first_on_path(&gap, &hidden).ok_or_else(|| self.broken(&gap))?;
             let next = self.proposal_or_exact(&gap, site);
             found = self.settle(&gap, next)?;
         }
@@ -146,7 +146,7 @@ impl<'a> Search<'a> {
 
     /// The disk that would make `site` the third governor, if doubles find one ahead.
     pub fn propose(&self, gap: &Gap, site: Site) -> Option<Proposal> {
-        if site == gap.right || site == gap.left || self.banned.contains(&site) {
+        if !self.may_be_third(gap, site) {
             return None;
         }
         let governors = self.triple(gap, site).map(|s| self.domain.governor(s));
@@ -162,6 +162,20 @@ impl<'a> Search<'a> {
         let position = gap.course.position(&disk);
         let slack = 1e-9 * (disk.radius + gap.start.radius) + 1e-13 * position.abs();
         (position >= gap.position - slack).then_some(Proposal { site, disk, position })
+    }
+
+    /// Whether a site can be met ahead: not the governors, and not what their footpoints have
+    /// left behind.
+    fn may_be_third(&self, gap: &Gap, site: Site) -> bool {
+        let (right, left) = (gap.right, gap.left);
+        let left_behind = if site.is_edge() {
+            (!right.is_edge() && site.index() == self.domain.edge(right.index()).prev)
+                || (!left.is_edge() && site.index() == left.index())
+        } else {
+            (right.is_edge() && site.index() == right.index())
+                || (left.is_edge() && site.index() == self.domain.edge(left.index()).next)
+        };
+        site != right && site != left && !left_behind && !self.banned.contains(&site)
     }
 
     fn triple(&self, gap: &Gap, site: Site) -> [Site; 3] {
@@ -276,6 +290,7 @@ impl<'a> Search<'a> {
             let mut verify = Verify::certified(self, gap, triple, disk, position, floating);
             verify.run();
             let verdict = verify.verdict(exact);
+            if std::env::var("DBG").is_ok() && round < 20 { eprintln!("gap {:?} {:?} from {:?} r {} : {:?} disk {:?} r {} bound {} -> {:?}", gap.right, gap.left, gap.start.centre, gap.start.radius, triple, disk.position(), disk.radius, disk.bound, verdict); }
             match verdict {
                 Verdict::Better(next) => best = Some(next),
                 Verdict::Cut(sites) => {
@@ -386,17 +401,33 @@ impl<'a> Search<'a> {
         Some(Proposal { site, disk, position: gap.course.position(&disk) })
     }
 
-    /// Of some sites the one whose exact disk comes first on the path, ahead of the start.
+    /// Of some sites the one whose exact disk comes first on the path, ahead of the start, and
+    /// touches all three in their zones.
     fn exact_first(&self, gap: &Gap, sites: &[Site]) -> Option<Site> {
+        self.first_where(gap, sites, |disk, site| {
+            [gap.right, site, gap.left].iter().all(|&s| self.in_zone(disk, s))
+        })
+    }
+
+    /// Of some corners the one whose exact disk comes first on the path, ahead of the start.
+    fn first_on_path(&self, gap: &Gap, corners: &[Site]) -> Option<Site> {
+        self.first_where(gap, corners, |_, _| true)
+    }
+
+    fn first_where(
+        &self,
+        gap: &Gap,
+        sites: &[Site],
+        holds: impl Fn(&ExactDisk, Site) -> bool,
+    ) -> Option<Site> {
         let start = gap.start.triple.and_then(|t| self.exact(&t));
         let mut first: Option<(Site, ExactDisk)> = None;
         for &site in sites {
-            if site == gap.right || site == gap.left || self.banned.contains(&site) {
+            if !self.may_be_third(gap, site) {
                 continue;
             }
             let Some(disk) = self.exact(&self.triple(gap, site)) else { continue };
-            let in_zones = [gap.right, site, gap.left].iter().all(|&s| self.in_zone(&disk, s));
-            if !in_zones {
+            if !holds(&disk, site) {
                 continue;
             }
             if let Some(start) = &start

@@ -7,6 +7,7 @@ use dashu_int::IBig;
 
 use super::Element;
 use super::construct::{Homogeneous, construct, corners_first, local_origin};
+use super::counts::count;
 use super::grid::{Grid, Vector};
 use super::tower::{Surd, Tower};
 use crate::geom::Point;
@@ -25,6 +26,8 @@ use crate::geom::Point;
 /// ```
 #[derive(Clone, Debug)]
 pub struct ExactDisk {
+    /// What it touches, corners first.
+    elements: [Element; 3],
     /// Where the integers count from, and what they count.
     pub(super) grid: Grid,
     /// The radius is a corner's distance: the grid's origin lies on the circle.
@@ -65,7 +68,8 @@ impl ExactDisk {
         let grid = Grid::new(local_origin(&elements), &points);
         let Homogeneous { tower, x, y, w, radius } = construct(&elements, grid)?;
         let through_origin = matches!(elements[0], Element::Corner(_));
-        Some(Self { grid, through_origin, tower, x, y, w, radius })
+        count(|counts| counts.disks += 1);
+        Some(Self { elements, grid, through_origin, tower, x, y, w, radius })
     }
 
     /// Orders the distance of the centre from a corner, or its signed distance from the supporting
@@ -76,10 +80,25 @@ impl ExactDisk {
     /// [`along`](Self::along) tell.
     #[must_use]
     pub fn side(&self, element: Element) -> Ordering {
+        if self.elements.contains(&element) {
+            count(|counts| counts.structure += 1);
+            return Ordering::Equal;
+        }
         match element {
-            Element::Corner(p) => self.side_of_corner(p),
+            Element::Corner(p) => self.side_of_end(p).unwrap_or_else(|| self.side_of_corner(p)),
             Element::Edge(a, b) => self.side_of_line(a, b),
         }
+    }
+
+    /// The side of a corner that ends a governing edge: it lies on a tangent, so it is outside unless
+    /// it is the contact.
+    fn side_of_end(&self, p: Point) -> Option<Ordering> {
+        self.elements.iter().find_map(|&element| match element {
+            Element::Edge(a, b) if a == p || b == p => {
+                Some(if self.along(a, b, p).is_eq() { Ordering::Equal } else { Ordering::Greater })
+            }
+            _ => None,
+        })
     }
 
     fn side_of_corner(&self, p: Point) -> Ordering {
@@ -88,7 +107,7 @@ impl ExactDisk {
         if disk.through_origin {
             // (|p - c|² - |c|²)·w
             let chord = disk.linear(&p).scale(&IBig::from(2));
-            return disk.tower.sign(&disk.w.scale(&p.norm2()).sub(&chord));
+            return disk.sign(&disk.w.scale(&p.norm2()).sub(&chord));
         }
         let (x, y) = disk.centre_from(&p);
         let distance = disk.tower.square(&x).add(&disk.tower.square(&y));
@@ -96,7 +115,7 @@ impl ExactDisk {
             Radius::Over { part, n } => distance.scale(n).sub(&disk.tower.square(part)),
             Radius::Times { part, n } => distance.sub(&disk.tower.square(part).scale(n)),
         };
-        disk.tower.sign(&difference)
+        disk.sign(&difference)
     }
 
     fn side_of_line(&self, a: Point, b: Point) -> Ordering {
@@ -115,7 +134,7 @@ impl ExactDisk {
                 (distance, disk.tower.mul(part, &root))
             }
         };
-        disk.tower.sign(&distance.sub(&radius))
+        disk.sign(&distance.sub(&radius))
     }
 
     /// Orders the signed distance of the centre from the line through `a` and `b` against zero:
@@ -124,7 +143,7 @@ impl ExactDisk {
     pub fn front(&self, a: Point, b: Point) -> Ordering {
         let disk = self.on_grid_of(&[a, b]);
         let across = disk.grid.difference(a, b).direction().perp();
-        disk.tower.sign(&disk.linear_from(&disk.grid.local(a), &across))
+        disk.sign(&disk.linear_from(&disk.grid.local(a), &across))
     }
 
     /// Orders the centre against `p` along the direction from `a` to `b`: the sign of
@@ -136,7 +155,7 @@ impl ExactDisk {
     pub fn along(&self, a: Point, b: Point, p: Point) -> Ordering {
         let disk = self.on_grid_of(&[a, b, p]);
         let direction = disk.grid.difference(a, b).direction();
-        disk.tower.sign(&disk.linear_from(&disk.grid.local(p), &direction))
+        disk.sign(&disk.linear_from(&disk.grid.local(p), &direction))
     }
 
     /// Orders the centres of two disks along the direction from `a` to `b`: the sign of
@@ -171,6 +190,7 @@ impl ExactDisk {
         let roots = tower.adjoin(&other.tower);
         let theirs = tower.mul(&tower.image(&theirs, &roots), &this.w);
         let ours = tower.mul(&ours, &tower.image(&other.w, &roots));
+        count(|counts| counts.tower += 1);
         tower.sign(&ours.sub(&theirs))
     }
 
@@ -180,7 +200,13 @@ impl ExactDisk {
     pub fn orientation(&self, p: Point, q: Point) -> Ordering {
         let disk = self.on_grid_of(&[p, q]);
         let across = disk.grid.difference(p, q).perp();
-        disk.tower.sign(&disk.linear_from(&disk.grid.local(p), &across))
+        disk.sign(&disk.linear_from(&disk.grid.local(p), &across))
+    }
+
+    /// The sign of a number of this disk's tower.
+    fn sign(&self, number: &Surd) -> Ordering {
+        count(|counts| counts.tower += 1);
+        self.tower.sign(number)
     }
 
     /// `v·c·w`, for the centre from the origin.
@@ -215,6 +241,7 @@ impl ExactDisk {
             Radius::Times { part, n } => Radius::Times { part: part.shift(bits), n: n.clone() },
         };
         Cow::Owned(Self {
+            elements: self.elements,
             grid: Grid { unit, ..self.grid },
             through_origin: self.through_origin,
             tower: self.tower.clone(),

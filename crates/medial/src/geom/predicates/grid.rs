@@ -87,6 +87,58 @@ impl Grid {
     }
 }
 
+/// A vector with components of one machine word.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Integers {
+    pub(super) x: i64,
+    pub(super) y: i64,
+}
+
+impl Integers {
+    pub(super) fn dot(self, other: Self) -> i128 {
+        i128::from(self.x) * i128::from(other.x) + i128::from(self.y) * i128::from(other.y)
+    }
+
+    pub(super) fn cross(self, other: Self) -> i128 {
+        i128::from(self.x) * i128::from(other.y) - i128::from(self.y) * i128::from(other.x)
+    }
+
+    pub(super) fn minus(self, other: Self) -> Self {
+        Self { x: self.x - other.x, y: self.y - other.y }
+    }
+
+    /// A short positive multiple of the same direction: a unit vector if it is axis-parallel.
+    pub(super) fn direction(self) -> Self {
+        if self.x == 0 || self.y == 0 {
+            Self { x: self.x.signum(), y: self.y.signum() }
+        } else {
+            let common = (self.x | self.y).trailing_zeros();
+            Self { x: self.x >> common, y: self.y >> common }
+        }
+    }
+}
+
+/// Points relative to an origin, in multiples of some power of two, if all coordinates are below
+/// `2^bits` in magnitude, with at most 62 bits.
+pub(super) fn integers<const N: usize>(
+    origin: Point,
+    points: [Point; N],
+    bits: u32,
+) -> Option<[Integers; N]> {
+    let Grid { unit, .. } = Grid::new(origin, &points);
+    let (x, y) = (small(origin.x, unit)?, small(origin.y, unit)?);
+    let mut result = [Integers { x: 0, y: 0 }; N];
+    let limit = 1i128 << bits;
+    for (local, point) in result.iter_mut().zip(points) {
+        let (dx, dy) = (small(point.x, unit)? - x, small(point.y, unit)? - y);
+        if dx.abs() >= limit || dy.abs() >= limit {
+            return None;
+        }
+        *local = Integers { x: dx as i64, y: dy as i64 };
+    }
+    Some(result)
+}
+
 /// The exponent of the lowest bit set in either coordinate.
 fn finest(point: Point) -> i32 {
     let exponent = |value: f64| {

@@ -1,12 +1,19 @@
 //! Exact decisions about disks that touch three boundary elements.
 
 mod construct;
+mod counts;
 mod disk;
+mod ends;
 mod grid;
 mod round;
+mod stages;
 mod tower;
+mod wide;
 
+pub use counts::{Counts, counts, reset_counts};
 pub use disk::ExactDisk;
+pub use ends::{First, Leaving, two_ends};
+pub use stages::in_disk;
 
 use crate::geom::Point;
 

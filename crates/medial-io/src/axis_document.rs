@@ -1,0 +1,254 @@
+//! The axis document: JSON Lines, one medial axis a line.
+//!
+//! Its JSON Schema is `schema/axis.schema.json` of this crate, also in [`SCHEMA`].
+
+use crate::json::parse;
+use crate::text::lines;
+use crate::{Error, Feature, Json};
+use medial::axis::{Accuracy, CurveKind, Engine, MedialAxis, Path, Side, Site};
+use medial::axis::{SiteKind, UnknownName};
+use medial::geom::Point;
+use serde::{Deserialize, Serialize};
+use serde_json::value::RawValue;
+use std::borrow::Cow;
+use std::str::FromStr;
+
+/// The JSON Schema of a document.
+pub const SCHEMA: &str = include_str!("../schema/axis.schema.json");
+
+/// An axis read from a document.
+#[derive(Clone, Debug)]
+pub struct AxisDocument {
+    /// Number of the feature in the input it was computed from.
+    pub feature: usize,
+    /// Identifier of that feature.
+    pub id: Option<Json>,
+    /// The axis.
+    pub axis: MedialAxis,
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(expecting = "an axis document")]
+struct Document<'a> {
+    #[serde(borrow, rename = "type")]
+    kind: Cow<'a, str>,
+    version: u32,
+    #[serde(borrow)]
+    engine: Cow<'a, str>,
+    #[serde(borrow)]
+    accuracy: AccuracyRecord<'a>,
+    complete: bool,
+    #[serde(borrow)]
+    side: Cow<'a, str>,
+    feature: usize,
+    #[serde(borrow, default)]
+    id: Option<&'a RawValue>,
+    #[serde(borrow)]
+    sites: Vec<SiteRecord<'a>>,
+    #[serde(borrow)]
+    keypoints: Vec<KeypointRecord<'a>>,
+    #[serde(borrow)]
+    paths: Vec<PathRecord<'a>>,
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(untagged, expecting = "`exact` or {\"sampled\": distance}")]
+enum AccuracyRecord<'a> {
+    Word(#[serde(borrow)] Cow<'a, str>),
+    Sampled { sampled: f64 },
+}
+
+#[derive(Serialize, Deserialize)]
+struct SiteRecord<'a> {
+    #[serde(borrow)]
+    kind: Cow<'a, str>,
+    polygon: u32,
+    ring: u32,
+    index: u32,
+    #[serde(default, skip_serializing_if = "is_zero")]
+    part: u32,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    a: Option<[f64; 2]>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    b: Option<[f64; 2]>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    p: Option<[f64; 2]>,
+}
+
+#[derive(Serialize, Deserialize)]
+struct KeypointRecord<'a> {
+    x: f64,
+    y: f64,
+    radius: f64,
+    #[serde(borrow)]
+    kind: Cow<'a, str>,
+    governors: Cow<'a, [u32]>,
+}
+
+#[derive(Serialize, Deserialize)]
+struct PathRecord<'a> {
+    from: u32,
+    to: u32,
+    governors: [u32; 2],
+    #[serde(borrow)]
+    curve: Cow<'a, str>,
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "the signature serde asks for")]
+fn is_zero(part: &u32) -> bool {
+    *part == 0
+}
+
+/// The document of one axis, with its line end.
+#[must_use]
+pub fn write(source: &Feature, axis: &MedialAxis) -> String {
+    let document = Document {
+        kind: "MedialAxis".into(),
+        version: 1,
+        engine: axis.engine.name().into(),
+        accuracy: match axis.accuracy {
+            Accuracy::Exact => AccuracyRecord::Word("exact".into()),
+            Accuracy::Sampled(sampled) => AccuracyRecord::Sampled { sampled },
+        },
+        complete: axis.complete,
+        side: axis.side.name().into(),
+        feature: source.index,
+        id: source.id.as_deref(),
+        sites: axis.sites().iter().map(site_record).collect(),
+        keypoints: (0u32..)
+            .zip(axis.keypoints())
+            .map(|(k, keypoint)| KeypointRecord {
+                x: keypoint.position.x,
+                y: keypoint.position.y,
+                radius: keypoint.radius,
+                kind: keypoint.kind.name().into(),
+                governors: axis.governors(k).into(),
+            })
+            .collect(),
+        paths: axis
+            .paths()
+            .iter()
+            .map(|path| PathRecord {
+                from: path.from,
+                to: path.to,
+                governors: [path.left, path.right],
+                curve: axis.curve_kind(path).name().into(),
+            })
+            .collect(),
+    };
+    // Maps with string keys and finite numbers always have a JSON form.
+    let mut line = serde_json::to_string(&document).unwrap_or_default();
+    line.push('\n');
+    line
+}
+
+fn site_record(site: &Site) -> SiteRecord<'static> {
+    let xy = |p: Point| Some([p.x, p.y]);
+    let (a, b, p) = match site.kind {
+        SiteKind::Edge => (xy(site.a), xy(site.b), None),
+        SiteKind::Vertex => (None, None, xy(site.a)),
+    };
+    SiteRecord {
+        kind: site.kind.name().into(),
+        polygon: site.polygon,
+        ring: site.ring,
+        index: site.index,
+        part: site.part,
+        a,
+        b,
+        p,
+    }
+}
+
+/// Reads every document of a text, a line each.
+pub fn read(text: &str) -> impl Iterator<Item = Result<AxisDocument, Error>> {
+    lines(text).map(move |line| read_line(text, line))
+}
+
+fn read_line(text: &str, line: &str) -> Result<AxisDocument, Error> {
+    let document: Document = parse(text, line)?;
+    let wrong = |place: String, why: String| Error::Value {
+        place: format!("feature {}: {place}", document.feature),
+        why,
+    };
+    if document.kind != "MedialAxis" {
+        return Err(wrong("type".into(), format!("`{}` is no MedialAxis", document.kind)));
+    }
+    if document.version != 1 {
+        return Err(wrong("version".into(), format!("{} is not 1", document.version)));
+    }
+    let accuracy = match document.accuracy {
+        AccuracyRecord::Word(ref word) if word == "exact" => Accuracy::Exact,
+        AccuracyRecord::Word(ref word) => {
+            return Err(wrong("accuracy".into(), format!("`{word}` is not `exact`")));
+        }
+        AccuracyRecord::Sampled { sampled } => Accuracy::Sampled(sampled),
+    };
+    let sites = each(&document.sites, "site", &wrong, site)?;
+    let kinds = each(&document.keypoints, "keypoint", &wrong, |k| named(&k.kind))?;
+    let keypoints = document
+        .keypoints
+        .iter()
+        .zip(kinds)
+        .map(|(k, kind)| (Point::new(k.x, k.y), k.radius, kind, k.governors.as_ref()));
+    let paths: Vec<Path> = document
+        .paths
+        .iter()
+        .map(|p| Path { from: p.from, to: p.to, left: p.governors[0], right: p.governors[1] })
+        .collect();
+    let axis = MedialAxis::from_parts(
+        named::<Engine>(&document.engine).map_err(|why| wrong("engine".into(), why))?,
+        named::<Side>(&document.side).map_err(|why| wrong("side".into(), why))?,
+        accuracy,
+        document.complete,
+        sites,
+        keypoints,
+        paths,
+    )
+    .ok_or_else(|| {
+        wrong("numbers".into(), "a site or keypoint is named that is not listed".to_owned())
+    })?;
+    each(&document.paths, "path", &wrong, |record| {
+        let path = Path {
+            from: record.from,
+            to: record.to,
+            left: record.governors[0],
+            right: record.governors[1],
+        };
+        let (said, is) = (named::<CurveKind>(&record.curve)?, axis.curve_kind(&path));
+        if said == is { Ok(()) } else { Err(format!("its governors make a {is}, not a {said}")) }
+    })?;
+    let id = document.id.map(ToOwned::to_owned);
+    Ok(AxisDocument { feature: document.feature, id, axis })
+}
+
+fn site(record: &SiteRecord) -> Result<Site, String> {
+    let point = |xy: Option<[f64; 2]>, name: &str| {
+        xy.map(|[x, y]| Point::new(x, y)).ok_or_else(|| format!("`{name}` is missing"))
+    };
+    let kind = named(&record.kind)?;
+    let (a, b) = match kind {
+        SiteKind::Edge => (point(record.a, "a")?, point(record.b, "b")?),
+        SiteKind::Vertex => (point(record.p, "p")?, point(record.p, "p")?),
+    };
+    let SiteRecord { polygon, ring, index, part, .. } = *record;
+    Ok(Site { kind, polygon, ring, index, part, a, b })
+}
+
+fn named<T: FromStr<Err = UnknownName>>(word: &str) -> Result<T, String> {
+    word.parse().map_err(|error: UnknownName| error.to_string())
+}
+
+/// `convert` for each record; the first failure names the record.
+fn each<R, T>(
+    records: &[R],
+    thing: &str,
+    wrong: &impl Fn(String, String) -> Error,
+    convert: impl Fn(&R) -> Result<T, String>,
+) -> Result<Vec<T>, Error> {
+    records
+        .iter()
+        .enumerate()
+        .map(|(k, record)| convert(record).map_err(|why| wrong(format!("{thing} {k}"), why)))
+        .collect()
+}

@@ -1,0 +1,60 @@
+use crate::Format;
+
+/// Why a text could not be read.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// The text breaks the rules of its format.
+    #[error("line {line}, column {column}: {why}")]
+    Syntax {
+        /// Line, from 1.
+        line: usize,
+        /// Column in bytes, from 1.
+        column: usize,
+        /// What is wrong there.
+        why: String,
+    },
+    /// The bytes are no text.
+    #[error("line {line}: the bytes are not UTF-8; save the file as UTF-8")]
+    NotUtf8 {
+        /// Line, from 1.
+        line: usize,
+    },
+    /// Nothing but white space.
+    #[error("the input is empty")]
+    Empty,
+    /// The content is told neither by its type nor by its beginning.
+    #[error("the content is of no known format; name it with --from")]
+    Unknown,
+    /// The format holds no polygons.
+    #[error("the format {format} holds no polygons to read")]
+    Unreadable {
+        /// The format.
+        format: Format,
+    },
+    /// A value is well written but makes no sense.
+    #[error("{place}: {why}")]
+    Value {
+        /// Where, in the terms of the format, such as `path 3`.
+        place: String,
+        /// What is wrong with it.
+        why: String,
+    },
+    /// The picture could not be made.
+    #[error("the picture cannot be drawn: {why}")]
+    Picture {
+        /// What the renderer said.
+        why: String,
+    },
+}
+
+/// One feature that could not be read; the others still can.
+#[derive(Debug, thiserror::Error)]
+#[error("{error}")]
+pub struct FeatureError {
+    /// Number of the feature in the input, from 0.
+    pub feature: usize,
+    /// What is wrong.
+    #[source]
+    pub error: Error,
+}

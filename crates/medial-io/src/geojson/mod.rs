@@ -1,0 +1,7 @@
+//! GeoJSON [RFC 7946], also with a `crs` member as older writers leave it.
+
+mod read;
+mod write;
+
+pub use read::{read, read_lines};
+pub use write::{FOOTER, feature_lines, features, header};

@@ -1,0 +1,137 @@
+use crate::json::{Members, Ring, parse, points};
+use crate::text::{lines, offset, syntax_at};
+use crate::{Error, Feature, FeatureError, Layer};
+use serde::Deserialize;
+use serde_json::value::RawValue;
+use std::borrow::Cow;
+
+/// Deepest nesting of geometry collections; protects the stack against made-up input.
+const MAX_NESTING: u32 = 32;
+
+/// Any GeoJSON object: the members that matter, values not yet looked into.
+#[derive(Deserialize)]
+#[serde(expecting = "a GeoJSON object")]
+struct Object<'a> {
+    #[serde(borrow, rename = "type")]
+    kind: Cow<'a, str>,
+    #[serde(borrow, default)]
+    features: Option<Vec<&'a RawValue>>,
+    #[serde(borrow, default)]
+    geometry: Option<&'a RawValue>,
+    #[serde(borrow, default)]
+    geometries: Option<Vec<&'a RawValue>>,
+    #[serde(borrow, default)]
+    coordinates: Option<&'a RawValue>,
+    #[serde(borrow, default)]
+    properties: Option<&'a RawValue>,
+    #[serde(borrow, default)]
+    id: Option<&'a RawValue>,
+    #[serde(borrow, default)]
+    crs: Option<&'a RawValue>,
+}
+
+/// Reads a collection, a feature or a bare geometry.
+///
+/// # Errors
+/// If the text is no JSON or no GeoJSON object. A feature that is malformed in itself is an item
+/// of the layer, and the others are still read.
+pub fn read(text: &str) -> Result<Layer<'_>, Error> {
+    if text.trim().is_empty() {
+        return Err(Error::Empty);
+    }
+    let object: Object = parse(text, text)?;
+    let parts = if object.kind == "FeatureCollection" {
+        let why = "the FeatureCollection has no `features`";
+        object.features.ok_or_else(|| syntax_at(text, 0, why))?
+    } else {
+        vec![parse(text, text)?]
+    };
+    let crs = object.crs.map(ToOwned::to_owned);
+    let len = Some(parts.len());
+    let features = parts.into_iter().enumerate().map(move |(k, raw)| feature(text, raw.get(), k));
+    Ok(Layer { crs, len, ..Layer::new(features) })
+}
+
+/// Reads one feature or geometry a line; record separators [RFC 8142] and empty lines are
+/// skipped, and a malformed line is an item of the layer.
+#[must_use]
+pub fn read_lines(text: &str) -> Layer<'_> {
+    Layer::new(lines(text).enumerate().map(move |(k, line)| feature(text, line, k)))
+}
+
+fn feature(text: &str, part: &str, index: usize) -> Result<Feature, FeatureError> {
+    read_feature(text, part, index).map_err(|error| FeatureError { feature: index, error })
+}
+
+fn read_feature(text: &str, part: &str, index: usize) -> Result<Feature, Error> {
+    let object: Object = parse(text, part)?;
+    let mut feature = Feature::numbered(index);
+    if object.kind != "Feature" {
+        read_geometry(text, part, &object, &mut feature, 0)?;
+        return Ok(feature);
+    }
+    feature.id = object.id.map(ToOwned::to_owned);
+    if let Some(properties) = object.properties {
+        feature.properties = parse::<Members>(text, properties.get())?.0;
+    }
+    match object.geometry {
+        Some(raw) => {
+            let geometry: Object = parse(text, raw.get())?;
+            read_geometry(text, raw.get(), &geometry, &mut feature, 0)?;
+        }
+        None => feature.geometry = "without a geometry".to_owned(),
+    }
+    Ok(feature)
+}
+
+fn read_geometry(
+    text: &str,
+    part: &str,
+    object: &Object,
+    feature: &mut Feature,
+    depth: u32,
+) -> Result<(), Error> {
+    let missing = |member: &str| {
+        let why = format!("the {} has no `{member}`", object.kind);
+        syntax_at(text, offset(text, part), why)
+    };
+    let coordinates = || object.coordinates.ok_or_else(|| missing("coordinates"));
+    if depth == 0 {
+        feature.geometry = described(&object.kind);
+    }
+    match object.kind.as_ref() {
+        "Polygon" => {
+            feature.add_polygon(points(parse::<Vec<Ring>>(text, coordinates()?.get())?));
+        }
+        "MultiPolygon" => {
+            feature.polygonal = true;
+            for rings in parse::<Vec<Vec<Ring>>>(text, coordinates()?.get())? {
+                feature.add_polygon(points(rings));
+            }
+        }
+        "GeometryCollection" => {
+            if depth == MAX_NESTING {
+                let why = format!("geometry collections are nested deeper than {MAX_NESTING}");
+                return Err(syntax_at(text, offset(text, part), why));
+            }
+            for raw in object.geometries.as_ref().ok_or_else(|| missing("geometries"))? {
+                let inner: Object = parse(text, raw.get())?;
+                read_geometry(text, raw.get(), &inner, feature, depth + 1)?;
+            }
+        }
+        kind @ ("Point" | "MultiPoint" | "LineString" | "MultiLineString") => {
+            if depth > 0 {
+                feature.leave_out(kind);
+            }
+        }
+        kind => {
+            let why = format!("`{kind}` is no GeoJSON geometry");
+            return Err(syntax_at(text, offset(text, part), why));
+        }
+    }
+    Ok(())
+}
+
+fn described(kind: &str) -> String {
+    format!("a {kind}")
+}

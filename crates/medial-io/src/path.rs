@@ -1,0 +1,77 @@
+use medial::axis::{Curve, Keypoint, MedialAxis, Path};
+use medial::geom::Point;
+
+/// How axes become lines.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Drawing {
+    /// Largest distance between a curve and its polyline; by default [`default_tolerance`].
+    pub tolerance: Option<f64>,
+    /// Whether the radius is the third coordinate.
+    pub radius_as_z: bool,
+    /// Whether keypoints are written as points.
+    pub keypoints: bool,
+}
+
+/// Tolerance of drawn curves, as a share of the longer side of the box around the feature.
+///
+/// Drawing only. A tenth of it makes about three times as many points.
+const RELATIVE_TOLERANCE: f64 = 1e-4;
+
+/// The tolerance for an axis: 1e-4 of the longer side of its box.
+///
+/// The box around the governors and the keypoints is the box of the shape.
+#[must_use]
+pub fn default_tolerance(axis: &MedialAxis) -> f64 {
+    axis.bounds()
+        .map_or(0.0, |(low, high)| RELATIVE_TOLERANCE * f64::max(high.x - low.x, high.y - low.y))
+}
+
+impl Drawing {
+    /// The tolerance that holds for this axis.
+    #[must_use]
+    pub fn tolerance(&self, axis: &MedialAxis) -> f64 {
+        self.tolerance.unwrap_or_else(|| default_tolerance(axis))
+    }
+
+    /// The points of a curve with their radii.
+    pub(crate) fn points(&self, curve: &Curve, tolerance: f64) -> Vec<(Point, f64)> {
+        if self.radius_as_z {
+            curve.polyline_in_space(tolerance)
+        } else {
+            curve.polyline(tolerance)
+        }
+    }
+}
+
+/// What the formats say of a path.
+pub(crate) struct PathRecord<'a> {
+    pub path: &'a Path,
+    pub curve: Curve,
+    pub ends: [&'a Keypoint; 2],
+}
+
+impl PathRecord<'_> {
+    /// The columns GeoJSON and CSV share, from `curve` to `governor_right`.
+    pub const COLUMNS: [&'static str; 10] = [
+        "curve",
+        "length",
+        "radius_min",
+        "radius_max",
+        "radius_start",
+        "radius_end",
+        "kind_start",
+        "kind_end",
+        "governor_left",
+        "governor_right",
+    ];
+}
+
+/// A record for every path, in their order.
+pub(crate) fn records(axis: &MedialAxis) -> impl Iterator<Item = PathRecord<'_>> {
+    let keypoints = axis.keypoints();
+    axis.paths().iter().map(move |path| PathRecord {
+        path,
+        curve: axis.curve(path),
+        ends: [path.from, path.to].map(|k| &keypoints[k as usize]),
+    })
+}

@@ -1,0 +1,166 @@
+use super::Lettering;
+use super::frame::Frame;
+use super::lettering::strokes;
+use crate::text::escaped;
+use medial::axis::Curve;
+use medial::geom::Point;
+use std::fmt::Write as _;
+
+/// The text of a picture while it is drawn, in picture coordinates throughout.
+pub(super) struct Canvas {
+    pub frame: Frame,
+    body: String,
+    lettering: Lettering,
+}
+
+/// Where a line of text is anchored.
+#[derive(Clone, Copy)]
+pub(super) enum Anchor {
+    Start,
+    Middle,
+    End,
+}
+
+impl Canvas {
+    pub fn new(frame: Frame, lettering: Lettering) -> Self {
+        Self { frame, body: String::new(), lettering }
+    }
+
+    /// Opens a group with a class name and these attributes.
+    pub fn open(&mut self, class: &str, attributes: &str) {
+        let _ = writeln!(self.body, "<g class=\"{class}\" {attributes}>");
+    }
+
+    pub fn close(&mut self) {
+        self.body.push_str("</g>\n");
+    }
+
+    /// A path element with these data and attributes; nothing without data.
+    pub fn path(&mut self, data: &str, attributes: &str) {
+        if !data.is_empty() {
+            let _ = writeln!(self.body, "<path d=\"{data}\"{}{attributes}/>", gap(attributes));
+        }
+    }
+
+    pub fn circle(&mut self, centre: Point, radius: f64) {
+        let [x, y, r] = [centre.x, centre.y, radius].map(number);
+        let _ = writeln!(self.body, "<circle cx=\"{x}\" cy=\"{y}\" r=\"{r}\"/>");
+    }
+
+    pub fn rectangle(&mut self, corner: Point, size: Point, attributes: &str) {
+        let [x, y, w, h] = [corner.x, corner.y, size.x, size.y].map(number);
+        let _ = writeln!(
+            self.body,
+            "<rect x=\"{x}\" y=\"{y}\" width=\"{w}\" height=\"{h}\"{}{attributes}/>",
+            gap(attributes)
+        );
+    }
+
+    /// A line of text, with the height of its capitals about 0.7 of `size`.
+    pub fn text(&mut self, at: Point, size: f64, anchor: Anchor, color: &str, text: &str) {
+        match self.lettering {
+            Lettering::Text => {
+                let anchor = match anchor {
+                    Anchor::Start => "start",
+                    Anchor::Middle => "middle",
+                    Anchor::End => "end",
+                };
+                let [x, y, size] = [at.x, at.y, size].map(number);
+                let _ = writeln!(
+                    self.body,
+                    "<text x=\"{x}\" y=\"{y}\" font-family=\"Helvetica, Arial, sans-serif\" \
+                     font-size=\"{size}\" text-anchor=\"{anchor}\" fill=\"{color}\">{}</text>",
+                    escaped(text)
+                );
+            }
+            Lettering::Strokes => {
+                let data = strokes(text, at, size, anchor);
+                let width = number(0.085 * size);
+                let attributes = format!(
+                    "fill=\"none\" stroke=\"{color}\" stroke-width=\"{width}\" \
+                     stroke-linecap=\"round\" stroke-linejoin=\"round\""
+                );
+                self.path(&data, &attributes);
+            }
+        }
+    }
+
+    /// The whole picture.
+    pub fn finish(self, title: &str) -> String {
+        let [w, h] = [self.frame.size.x, self.frame.size.y].map(number);
+        let title = if title.is_empty() { "Medial axis" } else { title };
+        format!(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{w}\" height=\"{h}\" \
+             viewBox=\"0 0 {w} {h}\">\n<title>{title}</title>\n\
+             <rect width=\"{w}\" height=\"{h}\" fill=\"#ffffff\"/>\n{}</svg>\n",
+            self.body
+        )
+    }
+}
+
+fn gap(attributes: &str) -> &str {
+    if attributes.is_empty() { "" } else { " " }
+}
+
+/// Data of path elements, from points of the plane.
+pub(super) struct Data<'a> {
+    frame: &'a Frame,
+    pub text: String,
+}
+
+impl<'a> Data<'a> {
+    pub fn new(frame: &'a Frame) -> Self {
+        Self { frame, text: String::new() }
+    }
+
+    pub fn move_to(&mut self, p: Point) {
+        self.verb('M', &[p]);
+    }
+
+    pub fn line_to(&mut self, p: Point) {
+        self.verb('L', &[p]);
+    }
+
+    /// On to the end of a curve that starts where the pen is.
+    pub fn curve_to(&mut self, curve: &Curve) {
+        match curve.control() {
+            Some(control) => self.verb('Q', &[control, curve.to()]),
+            None => self.line_to(curve.to()),
+        }
+    }
+
+    /// A closed ring.
+    pub fn ring(&mut self, points: impl IntoIterator<Item = Point>) {
+        for (k, p) in points.into_iter().enumerate() {
+            self.verb(if k == 0 { 'M' } else { 'L' }, &[p]);
+        }
+        self.text.push('Z');
+    }
+
+    /// A dot, as large as the stroke with round caps.
+    pub fn dot(&mut self, p: Point) {
+        self.move_to(p);
+        self.text.push_str("h.01");
+    }
+
+    /// A dot at a place of the picture.
+    pub fn dot_at(place: Point) -> String {
+        format!("M{} {}h.01", number(place.x), number(place.y))
+    }
+
+    fn verb(&mut self, verb: char, points: &[Point]) {
+        self.text.push(verb);
+        for (k, &p) in points.iter().enumerate() {
+            let p = self.frame.map(p);
+            let gap = if k == 0 { "" } else { " " };
+            let _ = write!(self.text, "{gap}{} {}", number(p.x), number(p.y));
+        }
+    }
+}
+
+/// A picture coordinate: a ten-thousandth of a pixel is far below what can be seen.
+pub(super) fn number(value: f64) -> String {
+    let mut text = format!("{value:.4}");
+    text.truncate(text.trim_end_matches('0').trim_end_matches('.').len());
+    if text == "-0" { "0".to_owned() } else { text }
+}

@@ -1,0 +1,86 @@
+use super::{Options, Scene};
+use medial::geom::Point;
+
+/// Longer side of the drawn shapes, in pixels.
+const SIDE: f64 = 1000.0;
+/// Space around the drawing.
+const MARGIN: f64 = 28.0;
+/// Height of the title line.
+const TITLE: f64 = 34.0;
+/// Height of the legend.
+const LEGEND: f64 = 64.0;
+/// Least width, so that the legend fits below a slender shape.
+const LEAST_WIDTH: f64 = 560.0;
+
+/// Where the shapes lie on the picture, and how large its strokes are.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Frame {
+    low: Point,
+    scale: f64,
+    /// Picture coordinates of the lower left corner of the shapes.
+    origin: Point,
+    /// Size of the picture.
+    pub size: Point,
+    /// Baseline of the title.
+    pub title_y: f64,
+    /// Top of the legend.
+    pub legend_y: f64,
+    /// Width of the strokes of the axis: thinner where much is drawn.
+    pub stroke: f64,
+}
+
+impl Frame {
+    pub fn around(scenes: &[Scene], options: &Options) -> Self {
+        let points = || scenes.iter().flat_map(|s| s.boundary.iter().flatten()).copied();
+        let fold = |x: fn(Point) -> f64, pick: fn(f64, f64) -> f64| points().map(x).reduce(pick);
+        let low = Point::new(
+            fold(|p| p.x, f64::min).unwrap_or(0.0),
+            fold(|p| p.y, f64::min).unwrap_or(0.0),
+        );
+        let high = Point::new(
+            fold(|p| p.x, f64::max).unwrap_or(1.0),
+            fold(|p| p.y, f64::max).unwrap_or(1.0),
+        );
+        let extent = high - low;
+        let longer = extent.x.max(extent.y);
+        let scale = if longer > 0.0 { SIDE / longer } else { 1.0 };
+        let drawn = extent * scale;
+        let title = if options.title.is_empty() { 0.0 } else { TITLE };
+        let legend = if options.legend { LEGEND } else { 0.0 };
+        let least = if options.legend || title > 0.0 { LEAST_WIDTH } else { 0.0 };
+        let width = (drawn.x + 2.0 * MARGIN).max(least);
+        let top = MARGIN + title;
+        Self {
+            low,
+            scale,
+            origin: Point::new(0.5 * (width - drawn.x), top + drawn.y),
+            size: Point::new(width, top + drawn.y + MARGIN + legend),
+            title_y: MARGIN + 10.0,
+            legend_y: top + drawn.y + MARGIN,
+            stroke: stroke(scenes, drawn),
+        }
+    }
+
+    /// A point of the plane in picture coordinates, y down.
+    pub fn map(&self, p: Point) -> Point {
+        let p = (p - self.low) * self.scale;
+        Point::new(self.origin.x + p.x, self.origin.y - p.y)
+    }
+
+    /// A length in picture units.
+    pub fn length(&self, length: f64) -> f64 {
+        length * self.scale
+    }
+
+    /// Left and right of what is not the drawing.
+    pub fn margins(&self) -> (f64, f64) {
+        (MARGIN, self.size.x - MARGIN)
+    }
+}
+
+/// A tenth of the typical distance of keypoints, between 0.6 and 2.6 pixels.
+fn stroke(scenes: &[Scene], drawn: Point) -> f64 {
+    let n: usize = scenes.iter().map(|s| s.axis.keypoints().len()).sum();
+    let spacing = (drawn.x * drawn.y / n.max(1) as f64).sqrt();
+    (0.1 * spacing).clamp(0.6, 2.6)
+}

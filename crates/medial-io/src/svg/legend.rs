@@ -1,0 +1,89 @@
+use super::canvas::{Anchor, Canvas, Data};
+use super::layers::{INK, dots};
+use super::palette::{STEPS, color};
+use super::{Options, Scene};
+use medial::axis::KeypointKind;
+use medial::geom::Point;
+
+const QUIET: &str = "#607d8b";
+/// Width of the colour bar.
+const BAR: f64 = 220.0;
+
+/// The title above and the legend below the shapes.
+pub(super) fn draw(canvas: &mut Canvas, scenes: &[Scene], options: &Options, radius_max: f64) {
+    let (left, right) = canvas.frame.margins();
+    if !options.title.is_empty() {
+        let y = canvas.frame.title_y;
+        canvas.text(Point::new(left, y), 20.0, Anchor::Start, INK, &options.title);
+    }
+    if options.legend {
+        let y = canvas.frame.legend_y;
+        radius_bar(canvas, Point::new(left, y), radius_max);
+        counts(canvas, Point::new(right, y), scenes, options.keypoints);
+    }
+}
+
+fn radius_bar(canvas: &mut Canvas, at: Point, radius_max: f64) {
+    canvas.open("legend", "");
+    let step = BAR / STEPS as f64;
+    for k in 0..STEPS {
+        let corner = at + Point::new(step * k as f64, 0.0);
+        // A little wider, so that no seam shows.
+        let fill = format!("fill=\"{}\"", color(k));
+        canvas.rectangle(corner, Point::new(step + 0.5, 8.0), &fill);
+    }
+    for (share, anchor) in [(0.0, Anchor::Start), (0.5, Anchor::Middle), (1.0, Anchor::End)] {
+        let place = at + Point::new(BAR * share, 22.0);
+        canvas.text(place, 12.0, anchor, QUIET, &rounded(radius_max * share));
+    }
+    canvas.text(at + Point::new(0.0, 38.0), 12.0, Anchor::Start, QUIET, "radius");
+    canvas.close();
+}
+
+/// How many of each kind, right-aligned, each with its mark.
+fn counts(canvas: &mut Canvas, at: Point, scenes: &[Scene], keypoints: bool) {
+    let n_paths: usize = scenes.iter().map(|s| s.axis.paths().len()).sum();
+    let mut x = at.x;
+    if keypoints {
+        for kind in [KeypointKind::Junction, KeypointKind::Transition, KeypointKind::End] {
+            let all = scenes.iter().flat_map(|s| s.axis.keypoints());
+            let label = plural(all.filter(|k| k.kind == kind).count(), kind.name());
+            let place = Point::new(x, at.y + 10.0);
+            canvas.text(place, 12.0, Anchor::End, INK, &label);
+            x -= 6.6 * label.len() as f64 + 14.0;
+            let dot = Data::dot_at(Point::new(x + 4.0, at.y + 6.0));
+            dots(canvas, kind, &dot);
+            x -= 16.0;
+        }
+    }
+    let place = at + Point::new(0.0, 28.0);
+    canvas.text(place, 12.0, Anchor::End, QUIET, &plural(n_paths, "path"));
+}
+
+fn plural(n: usize, word: &str) -> String {
+    if n == 1 { format!("1 {word}") } else { format!("{n} {word}s") }
+}
+
+/// Three significant digits, as in `0`, `1.25`, `1250`, `2.5e-7`.
+fn rounded(value: f64) -> String {
+    let rough: f64 = format!("{value:.2e}").parse().unwrap_or(value);
+    crate::number::shortest(rough)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ticks_have_three_digits() {
+        assert_eq!(rounded(1.0 / 3.0), "0.333");
+        assert_eq!(rounded(12345.0), "12300");
+        assert_eq!(rounded(0.0), "0");
+    }
+
+    #[test]
+    fn one_is_singular() {
+        assert_eq!(plural(1, "end"), "1 end");
+        assert_eq!(plural(0, "end"), "0 ends");
+    }
+}

@@ -1,0 +1,11 @@
+//! Well-known text, one geometry after the other, each a feature; heights and measures are
+//! ignored, an `SRID=…;` before a geometry is tolerated.
+
+mod read;
+mod scanner;
+mod write;
+
+pub(crate) use write::line_string;
+
+pub use read::read;
+pub use write::write;

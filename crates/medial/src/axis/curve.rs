@@ -1,0 +1,364 @@
+//! The curve of a path, from its governors and its two keypoints.
+//!
+//! # Contract
+//! Every form keeps full precision on short paths far from the apex; the ends of a curve are the
+//! keypoints, bit for bit. Nothing here decides anything about the graph.
+//!
+//! # Method
+//! A natural parameter along the bisector (position along the edge for a parabola, distance from
+//! the midpoint between two corners, length between two edges) makes positions and radii
+//! polynomials or single roots of it. Public parameters run from 0 at `from` to 1 at `to` and are
+//! affine in the natural parameter, so a parameter of a parabola is also that of its Bézier form.
+
+use super::{CurveKind, Keypoint, MedialAxis, Path, Site, SiteKind};
+use crate::geom::Point;
+
+/// Most pieces a curve is drawn with.
+///
+/// Drawing only. Reached when the tolerance is about 1e-12 of the curve; finer polylines would
+/// mostly repeat rounding errors and a mistyped tolerance would fill the memory.
+const MAX_PIECES: f64 = 1_048_576.0;
+
+/// The curve of a path: a line or a piece of a parabola, with the radius along it.
+///
+/// ```
+/// use medial::axis::{Curve, Site};
+/// use medial::geom::Point;
+///
+/// // The focus (0, 2) over the edge y = 0: the apex lies in the middle, at (0, 1).
+/// let edge = Site::edge(Point::new(-9.0, 0.0), Point::new(9.0, 0.0));
+/// let corner = Site::vertex(Point::new(0.0, 2.0));
+/// let from = (Point::new(-2.0, 2.0), 2.0);
+/// let to = (Point::new(2.0, 2.0), 2.0);
+/// let curve = Curve::new(&corner, &edge, from, to);
+/// assert_eq!(curve.point_at(0.5), Point::new(0.0, 1.0));
+/// assert_eq!(curve.control(), Some(Point::new(0.0, 0.0)));
+/// assert_eq!((curve.radius_min(), curve.radius_max()), (1.0, 2.0));
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Curve {
+    from: Point,
+    to: Point,
+    radius_from: f64,
+    radius_to: f64,
+    form: Form,
+}
+
+/// What the radius does along the curve, with its natural parameters at both ends.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Form {
+    /// Between two edges: a line, the radius linear in the length.
+    Linear,
+    /// Between two corners `2 half` apart: a line, the radius `√(half² + s²)` at `s` from their
+    /// midpoint.
+    Corners { half: f64, s: [f64; 2] },
+    /// Between a corner at distance `d > 0` from a line and that line: `x` along the line.
+    Parabola { d: f64, x: [f64; 2], focus: Point, tangent: Point },
+}
+
+impl Curve {
+    /// The curve between two keypoints, given as centre and radius, with these governors.
+    ///
+    /// A corner on the line of its own edge has no parabola; the result is then the straight
+    /// line between the keypoints. Such a pair governs no path of an axis.
+    #[must_use]
+    pub fn new(left: &Site, right: &Site, from: (Point, f64), to: (Point, f64)) -> Self {
+        let form = match (left.kind, right.kind) {
+            (SiteKind::Edge, SiteKind::Edge) => Form::Linear,
+            (SiteKind::Vertex, SiteKind::Vertex) => corners(left.a, right.a, from.0, to.0),
+            (SiteKind::Vertex, SiteKind::Edge) => parabola(left.a, right, from, to),
+            (SiteKind::Edge, SiteKind::Vertex) => parabola(right.a, left, from, to),
+        };
+        Self { from: from.0, to: to.0, radius_from: from.1, radius_to: to.1, form }
+    }
+
+    /// Line or parabola.
+    #[must_use]
+    pub fn kind(&self) -> CurveKind {
+        match self.form {
+            Form::Linear | Form::Corners { .. } => CurveKind::Line,
+            Form::Parabola { .. } => CurveKind::Parabola,
+        }
+    }
+
+    /// Where the curve starts.
+    #[must_use]
+    pub fn from(&self) -> Point {
+        self.from
+    }
+
+    /// Where the curve ends.
+    #[must_use]
+    pub fn to(&self) -> Point {
+        self.to
+    }
+
+    /// The radius at the start.
+    #[must_use]
+    pub fn radius_from(&self) -> f64 {
+        self.radius_from
+    }
+
+    /// The radius at the end.
+    #[must_use]
+    pub fn radius_to(&self) -> f64 {
+        self.radius_to
+    }
+
+    /// The middle control point of the exact quadratic Bézier form; `None` for a line.
+    #[must_use]
+    pub fn control(&self) -> Option<Point> {
+        let Form::Parabola { d, x: [x1, x2], focus, tangent } = self.form else { return None };
+        let height = (x1 * x2 - d * d) / (2.0 * d); // above the focus
+        Some(focus + tangent * (0.5 * (x1 + x2)) + tangent.perp() * height)
+    }
+
+    /// The point at parameter `u`, 0 at the start and 1 at the end.
+    #[must_use]
+    pub fn point_at(&self, u: f64) -> Point {
+        if u <= 0.0 {
+            return self.from;
+        }
+        if u >= 1.0 {
+            return self.to;
+        }
+        let p = self.from * (1.0 - u) + self.to * u;
+        let Form::Parabola { d, x: [x1, x2], tangent, .. } = self.form else { return p };
+        // Below the chord by u (1-u) (x2-x1)² / (2d): small terms stay small.
+        let span = x2 - x1;
+        p - tangent.perp() * (u * (1.0 - u) * span * span / (2.0 * d))
+    }
+
+    /// The radius at parameter `u`, 0 at the start and 1 at the end.
+    #[must_use]
+    pub fn radius_at(&self, u: f64) -> f64 {
+        if u <= 0.0 {
+            return self.radius_from;
+        }
+        if u >= 1.0 {
+            return self.radius_to;
+        }
+        let between = |[a, b]: [f64; 2]| a * (1.0 - u) + b * u;
+        match self.form {
+            Form::Linear => between([self.radius_from, self.radius_to]),
+            Form::Corners { half, s } => half.hypot(between(s)),
+            Form::Parabola { d, x, .. } => {
+                let x = between(x);
+                (x * x + d * d) / (2.0 * d)
+            }
+        }
+    }
+
+    /// The parameter strictly inside the curve where the radius is least: the apex of a parabola
+    /// or the midpoint between two corners. `None` if the radius is monotone.
+    #[must_use]
+    pub fn neck(&self) -> Option<f64> {
+        let [a, b] = match self.form {
+            Form::Linear => return None,
+            Form::Corners { s, .. } => s,
+            Form::Parabola { x, .. } => x,
+        };
+        (a < 0.0 && 0.0 < b || b < 0.0 && 0.0 < a).then(|| a / (a - b))
+    }
+
+    /// The least radius along the curve.
+    #[must_use]
+    pub fn radius_min(&self) -> f64 {
+        let ends = self.radius_from.min(self.radius_to);
+        match (self.form, self.neck()) {
+            (Form::Corners { half, .. }, Some(_)) => half.min(ends),
+            (Form::Parabola { d, .. }, Some(_)) => (0.5 * d).min(ends),
+            _ => ends,
+        }
+    }
+
+    /// The greatest radius along the curve: always that of an end.
+    #[must_use]
+    pub fn radius_max(&self) -> f64 {
+        self.radius_from.max(self.radius_to)
+    }
+
+    /// The parameters strictly inside the curve where the radius passes through `radius`, in
+    /// ascending order: at most two. A plateau passes through nothing.
+    #[must_use]
+    pub fn parameters_at_radius(&self, radius: f64) -> [Option<f64>; 2] {
+        let inside = |u: f64| (0.0 < u && u < 1.0).then_some(u);
+        let ([a, b], root) = match self.form {
+            Form::Linear => {
+                let u = (radius - self.radius_from) / (self.radius_to - self.radius_from);
+                return [inside(u), None];
+            }
+            Form::Corners { half, s } => (s, ((radius - half) * (radius + half)).sqrt()),
+            Form::Parabola { d, x, .. } => (x, (d * (2.0 * radius - d)).sqrt()),
+        };
+        // A root of a negative number is NaN and lies nowhere inside.
+        let u = |x: f64| (x - a) / (b - a);
+        match [inside(u(-root).min(u(root))), inside(u(-root).max(u(root)))] {
+            [None, second] => [second, None],
+            both => both,
+        }
+    }
+
+    /// The length of the curve.
+    #[must_use]
+    pub fn length(&self) -> f64 {
+        let Form::Parabola { d, x: [x1, x2], .. } = self.form else {
+            return (self.to - self.from).norm();
+        };
+        let (w1, w2) = (x1.hypot(d), x2.hypot(d));
+        let span = x2 - x1;
+        let m = span * (x1 + x2) / (w1 + w2); // w2 - w1 without cancellation
+        let chordal = (span * w2 + x1 * m) / (2.0 * d);
+        let turning = 0.5 * d * ((span * w1 - x1 * m) / (d * d)).asinh();
+        (chordal + turning).abs()
+    }
+
+    /// The part between parameters `u` and `v`, as a curve of its own.
+    #[must_use]
+    pub fn piece(&self, u: f64, v: f64) -> Self {
+        let between = |[a, b]: [f64; 2]| {
+            let at = |u: f64| {
+                if u <= 0.0 {
+                    a
+                } else if u >= 1.0 {
+                    b
+                } else {
+                    a * (1.0 - u) + b * u
+                }
+            };
+            [at(u), at(v)]
+        };
+        let form = match self.form {
+            Form::Linear => Form::Linear,
+            Form::Corners { half, s } => Form::Corners { half, s: between(s) },
+            Form::Parabola { d, x, focus, tangent } => {
+                Form::Parabola { d, x: between(x), focus, tangent }
+            }
+        };
+        Self {
+            from: self.point_at(u),
+            to: self.point_at(v),
+            radius_from: self.radius_at(u),
+            radius_to: self.radius_at(v),
+            form,
+        }
+    }
+
+    /// The curve as a polyline no farther than `tolerance` from it: its points with their radii,
+    /// both ends included. A line is its two ends.
+    #[must_use]
+    pub fn polyline(&self, tolerance: f64) -> Vec<(Point, f64)> {
+        let pieces = match self.form {
+            Form::Linear | Form::Corners { .. } => 1.0,
+            Form::Parabola { d, x, .. } => (x[1] - x[0]).abs() / (8.0 * d * tolerance).sqrt(),
+        };
+        self.sampled(pieces)
+    }
+
+    /// The curve in space, with the radius as height, as a polyline no farther than `tolerance`
+    /// from it. Between two corners it is a hyperbola and needs inner points too.
+    #[must_use]
+    pub fn polyline_in_space(&self, tolerance: f64) -> Vec<(Point, f64)> {
+        let pieces = match self.form {
+            Form::Linear => 1.0,
+            Form::Corners { half, s: [a, b] } => {
+                // r'' = half²/r³, greatest where the radius is least.
+                let r = self.radius_min();
+                (b - a).abs() * half / r / (8.0 * r * tolerance).sqrt()
+            }
+            Form::Parabola { d, x, .. } => {
+                // The height bends as much as the plane curve: √2 as far from the chord.
+                let tolerance = tolerance * std::f64::consts::FRAC_1_SQRT_2;
+                (x[1] - x[0]).abs() / (8.0 * d * tolerance).sqrt()
+            }
+        };
+        self.sampled(pieces)
+    }
+
+    fn sampled(&self, pieces: f64) -> Vec<(Point, f64)> {
+        let pieces = if pieces.is_nan() { 1.0 } else { pieces.ceil().clamp(1.0, MAX_PIECES) };
+        let n = pieces as u32;
+        (0..=n)
+            .map(|k| f64::from(k) / pieces)
+            .map(|u| (self.point_at(u), self.radius_at(u)))
+            .collect()
+    }
+}
+
+impl MedialAxis {
+    /// The curve of a path of this axis.
+    ///
+    /// # Panics
+    /// If `path` names a keypoint or a site the axis does not have.
+    #[must_use]
+    pub fn curve(&self, path: &Path) -> Curve {
+        let sites = self.sites();
+        let end = |k: u32| {
+            let Keypoint { position, radius, .. } = self.keypoints()[k as usize];
+            (position, radius)
+        };
+        Curve::new(
+            &sites[path.left as usize],
+            &sites[path.right as usize],
+            end(path.from),
+            end(path.to),
+        )
+    }
+}
+
+fn corners(p: Point, q: Point, from: Point, to: Point) -> Form {
+    let w = q - p;
+    let distance = w.norm();
+    if distance == 0.0 {
+        return Form::Linear;
+    }
+    let along = w.perp() * (1.0 / distance);
+    let middle = p + w * 0.5;
+    Form::Corners { half: 0.5 * distance, s: [along.dot(from - middle), along.dot(to - middle)] }
+}
+
+fn parabola(focus: Point, edge: &Site, from: (Point, f64), to: (Point, f64)) -> Form {
+    let direction = edge.b - edge.a;
+    let length = direction.norm();
+    let d = accurate_cross(edge.a, edge.b, focus) / length;
+    if d.is_nan() || d <= 0.0 {
+        return Form::Linear;
+    }
+    let tangent = direction * (1.0 / length);
+    let position = |(centre, radius): (Point, f64)| {
+        let x = tangent.dot(centre - focus);
+        // Far from the apex the radius gives the better value: x² = d (2r - d).
+        let square = d * (2.0 * radius - d);
+        if radius > d { square.sqrt().copysign(x) } else { x }
+    };
+    Form::Parabola { d, x: [position(from), position(to)], focus, tangent }
+}
+
+/// `(b - a) × (p - a)` with a small relative error, however near `p` lies to the line.
+fn accurate_cross(a: Point, b: Point, p: Point) -> f64 {
+    let (bx, by) = (difference(b.x, a.x), difference(b.y, a.y));
+    let (px, py) = (difference(p.x, a.x), difference(p.y, a.y));
+    let (s, s_error) = product(bx.0, py.0);
+    let (t, t_error) = product(by.0, px.0);
+    let (high, high_error) = difference(s, t);
+    let low = (s_error - t_error) + (bx.0 * py.1 + bx.1 * py.0) - (by.0 * px.1 + by.1 * px.0);
+    high + (high_error + low)
+}
+
+/// `a - b` and its rounding error.
+fn difference(a: f64, b: f64) -> (f64, f64) {
+    let x = a - b;
+    let b_virtual = a - x;
+    let a_virtual = x + b_virtual;
+    (x, (a - a_virtual) + (b_virtual - b))
+}
+
+/// `a · b` and its rounding error.
+fn product(a: f64, b: f64) -> (f64, f64) {
+    let x = a * b;
+    (x, a.mul_add(b, -x))
+}
+
+#[cfg(test)]
+#[path = "curve_tests.rs"]
+mod tests;

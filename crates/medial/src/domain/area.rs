@@ -1,0 +1,129 @@
+//! Areas of closed chains of points: compensated values, exact signs.
+
+use std::cmp::Ordering;
+
+use dashu_int::IBig;
+
+use crate::geom::{Point, two_product, two_sum};
+
+/// Twice the signed area and its error, as if computed in twice the precision of a double.
+pub(super) fn twice_area(points: impl Iterator<Item = Point>) -> (f64, f64) {
+    let (mut sum, mut error) = (0.0, 0.0);
+    let mut add = |value: f64| {
+        let (s, e) = two_sum(sum, value);
+        sum = s;
+        error += e;
+    };
+    for_edges(points, |a, b| {
+        for (x, y) in [(a.x, b.y), (-b.x, a.y)] {
+            let (high, low) = two_product(x, y);
+            add(high);
+            add(low);
+        }
+    });
+    (sum, error)
+}
+
+/// The exact sign of the area: `Greater` for a counterclockwise ring.
+pub(super) fn orientation(points: &[Point]) -> Ordering {
+    let Some(&origin) = points.first() else { return Ordering::Equal };
+    let (mut sum, mut size) = (0.0, 0.0);
+    for_edges(points.iter().copied(), |a, b| {
+        let (a, b) = (a - origin, b - origin);
+        let (left, right) = (a.x * b.y, a.y * b.x);
+        sum += left - right;
+        size += left.abs() + right.abs();
+    });
+    // Each term has a relative error below 4 roundings of its size, and n additions follow.
+    let bound = (points.len() as f64 + 8.0) * f64::EPSILON * size;
+    if sum > bound {
+        Ordering::Greater
+    } else if sum < -bound {
+        Ordering::Less
+    } else {
+        exact_twice_area(points).cmp(&IBig::ZERO)
+    }
+}
+
+/// Twice the area that a ring encloses, as a multiple of 2^-504.
+pub(super) fn exact_size(points: &[Point]) -> IBig {
+    let area = exact_twice_area(points);
+    if area < IBig::ZERO { -area } else { area }
+}
+
+/// Twice the signed area as a multiple of 2^-504.
+fn exact_twice_area(points: &[Point]) -> IBig {
+    let mut sum = IBig::ZERO;
+    for_edges(points.iter().copied(), |a, b| {
+        sum += integer(a.x) * integer(b.y) - integer(b.x) * integer(a.y);
+    });
+    sum
+}
+
+/// A double of an allowed exponent as a multiple of 2^-252.
+fn integer(value: f64) -> IBig {
+    let bits = value.to_bits();
+    let exponent = (bits >> 52 & 0x7ff) as usize;
+    if exponent == 0 {
+        return IBig::ZERO;
+    }
+    let mantissa = (bits & ((1 << 52) - 1) | 1 << 52) as i64;
+    // The value is mantissa · 2^(exponent - 1075), and exponent - 1023 is at least -200.
+    IBig::from(if value < 0.0 { -mantissa } else { mantissa }) << (exponent - 823)
+}
+
+fn for_edges(points: impl Iterator<Item = Point>, mut f: impl FnMut(Point, Point)) {
+    let mut points = points;
+    let Some(first) = points.next() else { return };
+    let mut before = first;
+    for point in points {
+        f(before, point);
+        before = point;
+    }
+    f(before, first);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn p(x: f64, y: f64) -> Point {
+        Point::new(x, y)
+    }
+
+    #[test]
+    fn the_area_of_a_small_square_far_away_is_exact() {
+        let (o, s) = (2f64.powi(40) + 0.5, 2f64.powi(-10));
+        let square = [p(o, o), p(o + s, o), p(o + s, o + s), p(o, o + s)];
+        let (high, low) = twice_area(square.iter().copied());
+        assert_eq!(high + low, 2.0 * s * s);
+    }
+
+    #[test]
+    fn the_orientation_of_a_sliver_one_ulp_wide_is_exact() {
+        let (a, b) = (p(0.1, 0.1), p(0.3, 0.3));
+        let up = p(0.2, 0.2_f64.next_up());
+        assert_eq!(orientation(&[a, b, up]), Ordering::Greater);
+        assert_eq!(orientation(&[a, up, b]), Ordering::Less);
+        assert_eq!(orientation(&[a, b, p(0.2, 0.2)]), Ordering::Equal);
+    }
+
+    #[test]
+    fn extreme_exponents_are_exact() {
+        let (s, l) = (2f64.powi(-200), 2f64.powi(200));
+        assert_eq!(orientation(&[p(0.0, 0.0), p(l, s), p(s, s)]), Ordering::Greater);
+        assert_eq!(orientation(&[p(0.0, 0.0), p(l, l), p(l + 0.0, l), p(s, s)]), Ordering::Equal);
+        assert_eq!(integer(-s), IBig::from(-1) << 52);
+        assert_eq!(integer(s.next_up()) - integer(s), IBig::ONE);
+    }
+
+    #[test]
+    fn sizes_ignore_direction_and_see_one_ulp() {
+        let square = [p(0.0, 0.0), p(1.0, 0.0), p(1.0, 1.0), p(0.0, 1.0)];
+        let mut other = square;
+        other.reverse();
+        assert_eq!(exact_size(&square), exact_size(&other));
+        other[0].x = 1.0_f64.next_down();
+        assert!(exact_size(&square) > exact_size(&other));
+    }
+}

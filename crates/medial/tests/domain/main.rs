@@ -1,0 +1,5 @@
+//! Which input makes a domain, what is changed on the way, and what is refused and why.
+
+mod accepted;
+mod refused;
+mod shapes;
