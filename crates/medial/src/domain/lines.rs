@@ -8,46 +8,38 @@ use crate::geom::{Point, cross_directions, orient2d};
 ///
 /// Sorts by direction, then by position across it; O(n log n), every comparison exact.
 pub(super) fn supporting_lines(edges: &[(Point, Point)]) -> Vec<u32> {
-    let mut lines: Vec<Line> = edges.iter().zip(0..).map(|(&e, k)| Line::new(e, k)).collect();
-    lines.sort_unstable_by(|a, b| a.compare(b).then(a.edge.cmp(&b.edge)));
+    let line = |(&(a, b), edge)| {
+        let d: Point = b - a;
+        (if d.x == 0.0 { f64::INFINITY } else { d.y / d.x }, edge)
+    };
+    let mut lines: Vec<(f64, u32)> = edges.iter().zip(0..).map(line).collect();
+    lines.sort_unstable_by(|a, b| compare(edges, a, b).then(a.1.cmp(&b.1)));
     let mut least = vec![0; edges.len()];
-    for same in lines.chunk_by(|a, b| a.compare(b).is_eq()) {
+    for same in lines.chunk_by(|a, b| compare(edges, a, b).is_eq()) {
         for line in same {
-            least[line.edge as usize] = same[0].edge;
+            least[line.1 as usize] = same[0].1;
         }
     }
     least
-}
-
-struct Line {
-    /// Rounded slope; infinite if upright.
-    slope: f64,
-    left: Point,
-    right: Point,
-    edge: u32,
 }
 
 /// Relative difference beyond which rounded slopes are in the order of the true ones: each has an
 /// error of three roundings.
 const SLOPE_ERROR: f64 = 4.0 * f64::EPSILON;
 
-impl Line {
-    fn new((a, b): (Point, Point), edge: u32) -> Self {
-        let (left, right) = if a.lexicographic(b).is_lt() { (a, b) } else { (b, a) };
-        let d = right - left;
-        Self { slope: if d.x == 0.0 { f64::INFINITY } else { d.y / d.x }, left, right, edge }
+/// Compares the lines of two edges, given with their rounded slopes.
+fn compare(edges: &[(Point, Point)], one: &(f64, u32), other: &(f64, u32)) -> Ordering {
+    let gap = one.0 - other.0;
+    if gap.abs() > SLOPE_ERROR * one.0.abs().max(other.0.abs()) {
+        return sign(gap);
     }
-
-    /// `Equal` if on one line.
-    fn compare(&self, other: &Self) -> Ordering {
-        let gap = self.slope - other.slope;
-        if gap.abs() > SLOPE_ERROR * self.slope.abs().max(other.slope.abs()) {
-            return sign(gap);
-        }
-        // Both point to the right, or both up: the one that turns left is steeper.
-        let turn = cross_directions(other.left, other.right, self.left, self.right);
-        sign(turn).then_with(|| sign(orient2d(other.left, other.right, self.left)))
-    }
+    let ends = |edge: u32| {
+        let (a, b) = edges[edge as usize];
+        if a.lexicographic(b).is_lt() { (a, b) } else { (b, a) }
+    };
+    let ((a, b), (c, d)) = (ends(one.1), ends(other.1));
+    // Both point to the right, or both up: the one that turns left is steeper.
+    sign(cross_directions(c, d, a, b)).then_with(|| sign(orient2d(c, d, a)))
 }
 
 fn sign(value: f64) -> Ordering {

@@ -1,33 +1,26 @@
 //! Lengths and directions, rounded once.
 
-use crate::geom::{Point, two_diff, two_product, two_sum};
+use crate::geom::{Double, Point};
 
 /// The unit vector from `a` to `b` and their distance, each coordinate within about half a unit
 /// in the last place; (±1, 0) and (0, ±1) are exact.
 ///
-/// Uses `+ - * / sqrt` only. Two coordinates of allowed exponents keep all products in range.
+/// Two points of allowed exponents keep all products in range.
 pub(super) fn unit_vector(a: Point, b: Point) -> (Point, f64) {
-    let (dx, dy) = (two_diff(b.x, a.x), two_diff(b.y, a.y));
-    if dy == (0.0, 0.0) {
-        return (Point::new(1f64.copysign(dx.0), 0.0), dx.0.abs());
+    let (dx, dy) = (Double::difference(b.x, a.x), Double::difference(b.y, a.y));
+    let (x, y) = (dx.value(), dy.value());
+    if y == 0.0 {
+        return (Point::new(1f64.copysign(x), 0.0), x.abs());
     }
-    if dx == (0.0, 0.0) {
-        return (Point::new(0.0, 1f64.copysign(dy.0)), dy.0.abs());
+    if x == 0.0 {
+        return (Point::new(0.0, 1f64.copysign(y)), y.abs());
     }
-    // The squared length, then one step of Newton's iteration for its root.
-    let (x2, x2_low) = two_product(dx.0, dx.0);
-    let (y2, y2_low) = two_product(dy.0, dy.0);
-    let (square, square_low) = two_sum(x2, y2);
-    let square_low = square_low + (x2_low + y2_low) + 2.0 * (dx.0 * dx.1 + dy.0 * dy.1);
-    let root = square.sqrt();
-    let (again, again_low) = two_product(root, root);
-    let root_low = ((square - again) - again_low + square_low) / (2.0 * root);
-    let quotient = |(high, low): (f64, f64)| {
-        let q = high / root;
-        let (back, back_low) = two_product(q, root);
-        q + ((high - back) - back_low + low - q * root_low) / root
+    let length = (dx * dx + dy * dy).sqrt();
+    let quotient = |d: Double| {
+        let q = d.value() / length.value();
+        q + (d - length * Double::from(q)).value() / length.value()
     };
-    (Point::new(quotient(dx), quotient(dy)), root + root_low)
+    (Point::new(quotient(dx), quotient(dy)), length.value())
 }
 
 #[cfg(test)]

@@ -2,7 +2,7 @@ use super::Report;
 use super::area::twice_area;
 use super::assemble::Walks;
 use super::unit::unit_vector;
-use crate::geom::{Point, orient2d, two_sum};
+use crate::geom::{Double, Point, orient2d};
 
 /// A boundary element: an open edge, or the corner at the start of an edge.
 ///
@@ -226,25 +226,18 @@ impl Domain {
     /// double, then rounded.
     #[must_use]
     pub fn area(&self) -> f64 {
-        let (mut sum, mut error) = (0.0, 0.0);
-        for walk in 0..self.walks.len() as u32 {
-            let (high, low) = self.twice_area(walk);
-            let (s, e) = two_sum(sum, high);
-            sum = s;
-            error += e + low;
-        }
-        0.5 * (sum + error)
+        let walks = 0..self.walks.len() as u32;
+        0.5 * walks.fold(Double::ZERO, |sum, walk| sum + self.twice_area(walk)).value()
     }
 
     /// Area that one walk encloses, negative if it surrounds a hole; summed in twice the
     /// precision of a double, then rounded.
     #[must_use]
     pub fn signed_area(&self, walk: u32) -> f64 {
-        let (high, low) = self.twice_area(walk);
-        0.5 * (high + low)
+        0.5 * self.twice_area(walk).value()
     }
 
-    fn twice_area(&self, walk: u32) -> (f64, f64) {
+    fn twice_area(&self, walk: u32) -> Double {
         let Walk { first, len, .. } = self.walks[walk as usize];
         let edges = &self.edges[first as usize..(first + len) as usize];
         twice_area(edges.iter().map(|e| e.start))

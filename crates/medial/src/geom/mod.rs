@@ -11,5 +11,4 @@ pub use bounds_tree::{BoundsTree, Rect, Visitor};
 pub use disk::{Governor, TouchingDisk};
 pub use double::Double;
 pub use orient::{cross_directions, orient2d};
-pub(crate) use orient::{two_diff, two_product, two_sum};
 pub use point::Point;

@@ -1,4 +1,5 @@
 use super::Point;
+use super::double::{two_product, two_sum};
 
 /// The side of the line `a` → `b` on which `c` lies: positive to the left, 0 on it; the sign is
 /// exact.
@@ -45,10 +46,15 @@ pub fn cross_directions(a: Point, b: Point, c: Point, d: Point) -> f64 {
 const CROSS_ERROR: f64 = 6.0 * f64::EPSILON / 2.0;
 
 fn exact_cross(a: Point, b: Point, c: Point, d: Point) -> f64 {
-    let ux = two_diff(b.x, a.x);
-    let uy = two_diff(b.y, a.y);
-    let vx = two_diff(d.x, c.x);
-    let vy = two_diff(d.y, c.y);
+    let ux = two_sum(b.x, -a.x);
+    let uy = two_sum(b.y, -a.y);
+    let vx = two_sum(d.x, -c.x);
+    let vy = two_sum(d.y, -c.y);
+    if [ux, uy, vx, vy].iter().all(|v| v.1 == 0.0) {
+        // Rounding is monotonic: the errors of the products count only if the products are equal.
+        let (left, right) = (two_product(ux.0, vy.0), two_product(uy.0, vx.0));
+        return if left.0 == right.0 { left.1 - right.1 } else { left.0 - right.0 };
+    }
     let mut sum = Expansion::default();
     for (i, j) in [(ux.0, vy.0), (ux.0, vy.1), (ux.1, vy.0), (ux.1, vy.1)] {
         sum.add_product(i, j);
@@ -95,37 +101,6 @@ impl Expansion {
     fn sign_value(&self) -> f64 {
         if self.len == 0 { 0.0 } else { self.parts[self.len - 1] }
     }
-}
-
-/// The rounded sum and its exact error.
-#[inline]
-pub(crate) fn two_sum(a: f64, b: f64) -> (f64, f64) {
-    let sum = a + b;
-    let b_part = sum - a;
-    let a_part = sum - b_part;
-    (sum, (a - a_part) + (b - b_part))
-}
-
-/// The rounded difference and its exact error.
-#[inline]
-pub(crate) fn two_diff(a: f64, b: f64) -> (f64, f64) {
-    two_sum(a, -b)
-}
-
-/// The rounded product and its exact error, if neither overflows nor underflows.
-#[inline]
-pub(crate) fn two_product(a: f64, b: f64) -> (f64, f64) {
-    let product = a * b;
-    let ((a1, a0), (b1, b0)) = (split(a), split(b));
-    (product, a0 * b0 - (((product - a1 * b1) - a0 * b1) - a1 * b0))
-}
-
-/// Halves of 26 bits each [Dekker 1971].
-#[inline]
-fn split(a: f64) -> (f64, f64) {
-    let c = 134_217_729.0 * a;
-    let high = c - (c - a);
-    (high, a - high)
 }
 
 #[cfg(test)]
