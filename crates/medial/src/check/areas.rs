@@ -1,10 +1,9 @@
 use super::context::Context;
-use super::double_double::DoubleDouble;
 use super::enclosure::norm1;
 use super::verdict::{Identity, Relation};
 use crate::axis::Path;
 use crate::domain::{Domain, Site};
-use crate::geom::Point;
+use crate::geom::{Double, Point};
 
 /// How far a coordinate of a right keypoint may be off, in parts of the local scale.
 const POSITION: f64 = 8.0 * f64::EPSILON;
@@ -13,7 +12,7 @@ const POSITION: f64 = 8.0 * f64::EPSILON;
 ///
 /// Valid pieces of cells cannot overlap, so the sums agree only if nothing is missing.
 pub(super) fn identity(context: &Context) -> Identity {
-    let mut sum = DoubleDouble::default();
+    let mut sum = Double::ZERO;
     let mut bound = 0.0;
     for path in context.axis.paths() {
         let sites = (context.sites[path.left as usize], context.sites[path.right as usize]);
@@ -33,21 +32,20 @@ pub(super) fn identity(context: &Context) -> Identity {
 
 /// The area of the domain and its error.
 fn area(domain: &Domain) -> (f64, f64) {
-    let mut sum = DoubleDouble::default();
+    let mut sum = Double::ZERO;
     let mut error = 0.0;
     for walk in domain.walks() {
         let origin = domain.edge(walk.first).start;
-        let local = |p: Point| {
-            (DoubleDouble::difference(p.x, origin.x), DoubleDouble::difference(p.y, origin.y))
-        };
+        let local =
+            |p: Point| (Double::difference(p.x, origin.x), Double::difference(p.y, origin.y));
         for edge in walk.first..walk.first + walk.len {
             let ((ax, ay), (bx, by)) = (local(domain.edge(edge).start), local(domain.end(edge)));
             let term = ax * by - ay * bx;
             sum = sum + term;
-            error += term.magnitude();
+            error += term.value().abs();
         }
     }
-    (0.5 * sum.value(), f64::EPSILON * (sum.magnitude() + f64::EPSILON * error))
+    (0.5 * sum.value(), f64::EPSILON * (sum.value().abs() + f64::EPSILON * error))
 }
 
 /// The area of the two pieces of cells beside a path, and its error.
@@ -92,7 +90,7 @@ fn beside(context: &Context, path: &Path, left: Site, right: Site) -> (f64, f64)
 
 /// Distance of a point from the line through `a` and `b`, rounded once or twice.
 fn distance_from_line(p: Point, a: Point, b: Point) -> f64 {
-    let (dx, dy) = (DoubleDouble::difference(b.x, a.x), DoubleDouble::difference(b.y, a.y));
-    let (qx, qy) = (DoubleDouble::difference(p.x, a.x), DoubleDouble::difference(p.y, a.y));
+    let (dx, dy) = (Double::difference(b.x, a.x), Double::difference(b.y, a.y));
+    let (qx, qy) = (Double::difference(p.x, a.x), Double::difference(p.y, a.y));
     ((dx * qy - dy * qx) / (dx * dx + dy * dy).sqrt()).value()
 }

@@ -45,7 +45,6 @@ impl<'a> Contacts<'a> {
         }
     }
 
-    #[expect(clippy::float_cmp, reason = "the sign is exact")]
     /// Whether two contacts on one line through the centre are the same.
     fn same(&self, a: Site, b: Site) -> bool {
         let (p, p_end) = self.points(a);

@@ -1,9 +1,12 @@
-use super::double_double::{DoubleDouble, EPSILON};
 use crate::domain::{Domain, Site};
-use crate::geom::Point;
+use crate::geom::{Double, Point};
 
 /// Rounding unit of the doubles.
 const UNIT: f64 = 1.0 / (1u64 << 53) as f64;
+
+/// Relative error that covers every formula here in double-doubles: some twenty operations, each
+/// right to about 2^-103.
+const EPSILON: f64 = 1.0 / (1u128 << 98) as f64;
 
 /// Newton steps before giving up: from a rounded position two suffice, each doubles the digits.
 const STEPS: usize = 8;
@@ -14,9 +17,9 @@ const STEPS: usize = 8;
 /// So centre and radius err by at most `bound` each.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Enclosure {
-    pub(super) x: DoubleDouble,
-    pub(super) y: DoubleDouble,
-    pub(super) radius: DoubleDouble,
+    pub(super) x: Double,
+    pub(super) y: Double,
+    pub(super) radius: Double,
     pub(super) bound: f64,
 }
 
@@ -55,7 +58,7 @@ impl Enclosure {
 
     /// Size of the coordinates: what relative errors of double-doubles refer to.
     fn size(&self) -> f64 {
-        self.x.magnitude() + self.y.magnitude() + self.radius.magnitude()
+        self.x.value().abs() + self.y.value().abs() + self.radius.value().abs()
     }
 
     /// Distance of the centre from a corner, or signed distance from the supporting line of an
@@ -63,17 +66,17 @@ impl Enclosure {
     pub(super) fn residual(&self, domain: &Domain, site: Site) -> (f64, f64) {
         let (distance, error) = if site.is_edge() {
             let (start, end) = (domain.edge(site.index()).start, domain.end(site.index()));
-            (self.from_line(start, end), EPSILON * (self.size() + norm1(start) + norm1(end)))
+            (self.distance_to_line(start, end), EPSILON * (self.size() + norm1(start) + norm1(end)))
         } else {
             let p = domain.edge(site.index()).start;
-            (self.from_point(p), EPSILON * (self.size() + norm1(p)))
+            (self.distance_to_point(p), EPSILON * (self.size() + norm1(p)))
         };
         ((distance - self.radius).value(), self.bound + error)
     }
 
     /// `t·(centre - p)` for the unit vector `t` from `a` to `b`, and its error.
     pub(super) fn along(&self, a: Point, b: Point, p: Point) -> (f64, f64) {
-        let (dx, dy) = (DoubleDouble::difference(b.x, a.x), DoubleDouble::difference(b.y, a.y));
+        let (dx, dy) = (Double::difference(b.x, a.x), Double::difference(b.y, a.y));
         let (qx, qy) = (self.x - p.x.into(), self.y - p.y.into());
         let value = (dx * qx + dy * qy) / (dx * dx + dy * dy).sqrt();
         (value.value(), self.bound + EPSILON * (self.size() + norm1(p)))
@@ -83,16 +86,16 @@ impl Enclosure {
     /// error.
     pub(super) fn across(&self, a: Point, b: Point) -> (f64, f64) {
         let error = self.bound + EPSILON * (self.size() + norm1(a) + norm1(b));
-        (self.from_line(a, b).value(), error)
+        (self.distance_to_line(a, b).value(), error)
     }
 
-    fn from_line(&self, a: Point, b: Point) -> DoubleDouble {
-        let (dx, dy) = (DoubleDouble::difference(b.x, a.x), DoubleDouble::difference(b.y, a.y));
+    fn distance_to_line(&self, a: Point, b: Point) -> Double {
+        let (dx, dy) = (Double::difference(b.x, a.x), Double::difference(b.y, a.y));
         let (qx, qy) = (self.x - a.x.into(), self.y - a.y.into());
         (dx * qy - dy * qx) / (dx * dx + dy * dy).sqrt()
     }
 
-    fn from_point(&self, p: Point) -> DoubleDouble {
+    fn distance_to_point(&self, p: Point) -> Double {
         let (qx, qy) = (self.x - p.x.into(), self.y - p.y.into());
         (qx * qx + qy * qy).sqrt()
     }
@@ -164,14 +167,14 @@ fn at_end(
 ) -> Option<Enclosure> {
     let (a, b) = (domain.edge(edge.index()).start, domain.end(edge.index()));
     let v = domain.edge(corner.index()).start;
-    let (dx, dy) = (DoubleDouble::difference(b.x, a.x), DoubleDouble::difference(b.y, a.y));
+    let (dx, dy) = (Double::difference(b.x, a.x), Double::difference(b.y, a.y));
     let length = (dx * dx + dy * dy).sqrt();
     let (nx, ny) = (-dy / length, dx / length);
     let normal = Point::new(nx.value(), ny.value());
-    let mut radius = DoubleDouble::from(radius);
+    let mut radius = Double::from(radius);
     for step in 0..=STEPS {
-        let x = DoubleDouble::from(v.x) + radius * nx;
-        let y = DoubleDouble::from(v.y) + radius * ny;
+        let x = Double::from(v.x) + radius * nx;
+        let y = Double::from(v.y) + radius * ny;
         let disk = Enclosure { x, y, radius, bound: 0.0 };
         let (residual, error) = disk.residual(domain, other);
         let gain = 1.0 - disk.normal(domain, other).dot(normal);

@@ -10,7 +10,7 @@ use super::maximal_disk::{MaximalDisk, ulp_of_scale};
 use super::{Defect, Name};
 use crate::axis::{Keypoint, KeypointKind};
 use crate::domain::{Corner, Site};
-use crate::geom::Point;
+use crate::geom::{Double, Point};
 
 /// How far positions and radii may be from the exact ones, in units in the last place of the
 /// largest of |x|, |y| and the radius: what exact engines promise.
@@ -344,8 +344,8 @@ impl One<'_, '_> {
         let (keypoint, at) = (self.number, disk.centre());
         let position = self.keypoint.position;
         let ulp = ulp_of_scale(at, disk.radius.value());
-        let off = |exact: super::double_double::DoubleDouble, claimed: f64| {
-            let off = (exact - claimed.into()).magnitude();
+        let off = |exact: Double, claimed: f64| {
+            let off = (exact - claimed.into()).value().abs();
             if off.is_nan() { f64::INFINITY } else { off }
         };
         let limit = POSITION_ULPS * ulp + disk.bound;

@@ -25,7 +25,7 @@ impl<'a> MaximalDisk<'a> {
         if let Some(enclosure) = Enclosure::certify(domain, sites, guess) {
             return Some(Self { domain, sites, enclosure, exact: OnceCell::new() });
         }
-        let disk = ExactDisk::new(sites.map(|s| element(domain, s)))?;
+        let disk = ExactDisk::new(sites.map(|s| domain.element(s)))?;
         let (centre, radius) = disk.approximate();
         let enclosure = Enclosure::certify(domain, sites, (centre, radius)).unwrap_or_else(|| {
             Enclosure::around(centre, radius, ROUNDING_ULPS * ulp_of_scale(centre, radius))
@@ -49,7 +49,7 @@ impl<'a> MaximalDisk<'a> {
 
     fn exact(&self) -> Option<&ExactDisk> {
         self.exact
-            .get_or_init(|| ExactDisk::new(self.sites.map(|s| element(self.domain, s))))
+            .get_or_init(|| ExactDisk::new(self.sites.map(|s| self.domain.element(s))))
             .as_ref()
     }
 
@@ -73,7 +73,7 @@ impl<'a> MaximalDisk<'a> {
             return Ordering::Equal;
         }
         self.decide(self.enclosure.residual(self.domain, site), |disk| {
-            disk.side(element(self.domain, site))
+            disk.side(self.domain.element(site))
         })
     }
 
@@ -137,16 +137,6 @@ impl<'a> MaximalDisk<'a> {
                 })
             },
         )
-    }
-}
-
-/// A site as the predicates see it.
-pub(super) fn element(domain: &Domain, site: Site) -> Element {
-    let start = domain.edge(site.index()).start;
-    if site.is_edge() {
-        Element::Edge(start, domain.end(site.index()))
-    } else {
-        Element::Corner(start)
     }
 }
 

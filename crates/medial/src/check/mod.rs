@@ -23,7 +23,6 @@ mod box_tree;
 mod context;
 mod defect;
 mod direction;
-mod double_double;
 mod enclosure;
 mod identities;
 mod keypoints;
