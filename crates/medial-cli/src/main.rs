@@ -10,6 +10,7 @@ mod parallel;
 mod progress;
 mod report;
 mod timings;
+mod verdicts;
 
 use args::Command;
 use std::process::ExitCode;
