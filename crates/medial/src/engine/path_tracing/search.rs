@@ -292,6 +292,15 @@ impl<'a> Search<'a> {
             let verdict = verify.verdict(exact);
             match verdict {
                 Verdict::Better(next) => best = Some(next),
+                Verdict::Earlier(site) => {
+                    best = self
+                        .may_be_third(gap, site)
+                        .then(|| self.proposal_or_exact(gap, site))
+                        .flatten();
+                    if best.is_none() && !seen.contains(&site) {
+                        seen.push(site);
+                    }
+                }
                 Verdict::Cut(sites) => {
                     best = None;
                     let cutting = sites.iter().find_map(|&s| {

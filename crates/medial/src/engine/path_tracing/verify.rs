@@ -18,7 +18,9 @@ pub(super) enum Verdict {
     Clear(Vec<Site>),
     /// Something cuts it, and this comes earlier on the path.
     Better(Proposal),
-    /// These sites cut it, or stand where a governor of the path ends.
+    /// This site cuts it, exactly.
+    Earlier(Site),
+    /// Some of these sites cut it, or stand where a governor of the path ends.
     Cut(Vec<Site>),
     /// The third governor is touched beyond its end.
     OffEdge,
@@ -213,7 +215,6 @@ impl<'s, 'a> Verify<'s, 'a> {
                 }
             }
         }
-        let mut cut: Vec<Site> = Vec::new();
         for &edge in &self.doubtful {
             if !need(&mut exact) {
                 return Verdict::OffEdge;
@@ -221,15 +222,12 @@ impl<'s, 'a> Verify<'s, 'a> {
             let Some(disk) = &exact else { return Verdict::OffEdge };
             match search.touch(disk, edge) {
                 Touch::Clear => {}
-                Touch::Cut => cut.extend(self.sites_of(edge)),
+                Touch::Cut(part) => return Verdict::Earlier(part),
                 Touch::Contact { edge: on_edge, corner } => {
                     contacts.extend(on_edge.then_some(Site::edge(edge)));
                     contacts.extend(corner);
                 }
             }
-        }
-        if !cut.is_empty() {
-            return Verdict::Cut(cut);
         }
         contacts::sort(domain, &self.certified, exact.as_ref(), &self.triple, &mut contacts);
         Verdict::Clear(contacts)
