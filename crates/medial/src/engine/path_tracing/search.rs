@@ -290,7 +290,20 @@ impl<'a> Search<'a> {
             let mut verify = Verify::certified(self, gap, triple, disk, position, floating);
             verify.run();
             let verdict = verify.verdict(exact);
-            if std::env::var("DBG").is_ok() && round < 20 { eprintln!("gap {:?} {:?} from {:?} r {} : {:?} disk {:?} r {} bound {} -> {:?}", gap.right, gap.left, gap.start.centre, gap.start.radius, triple, disk.position(), disk.radius, disk.bound, verdict); }
+            if std::env::var("DBG").is_ok() && round < 20 {
+                eprintln!(
+                    "gap {:?} {:?} from {:?} r {} : {:?} disk {:?} r {} bound {} -> {:?}",
+                    gap.right,
+                    gap.left,
+                    gap.start.centre,
+                    gap.start.radius,
+                    triple,
+                    disk.position(),
+                    disk.radius,
+                    disk.bound,
+                    verdict
+                );
+            }
             match verdict {
                 Verdict::Better(next) => best = Some(next),
                 Verdict::Cut(sites) => {
