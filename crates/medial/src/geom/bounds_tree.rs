@@ -1,3 +1,5 @@
+use std::ops::Range;
+
 use super::Point;
 
 /// An axis-parallel box.
@@ -61,8 +63,8 @@ const FAN: usize = 8;
 
 /// What a walk through a [`BoundsTree`] does with what it meets.
 pub trait Visitor {
-    /// Whether anything inside the box is of interest.
-    fn enters(&self, bounds: &Rect) -> bool;
+    /// Whether any of these items, all inside the box, is of interest.
+    fn enters(&self, bounds: &Rect, items: Range<u32>) -> bool;
     /// Takes one item of a leaf that was entered.
     fn item(&mut self, item: u32);
 }
@@ -111,7 +113,7 @@ impl BoundsTree {
 
     /// The numbers of the items.
     #[must_use]
-    pub fn items(&self) -> std::ops::Range<u32> {
+    pub fn items(&self) -> Range<u32> {
         self.base..self.base + self.n_items
     }
 
@@ -135,7 +137,10 @@ impl BoundsTree {
             top -= 1;
             let (level, number) = stack[top];
             let bounds = &self.boxes[(self.levels[level as usize] + number) as usize];
-            if !visitor.enters(bounds) {
+            let width = (FAN as u64).pow(u32::from(level) + 1);
+            let start = self.base + (u64::from(number) * width) as u32;
+            let end = (u64::from(start) + width).min(u64::from(self.base + self.n_items)) as u32;
+            if !visitor.enters(bounds, start..end) {
                 continue;
             }
             let first = number * FAN as u32;
@@ -165,7 +170,8 @@ mod tests {
     }
 
     impl Visitor for Near {
-        fn enters(&self, bounds: &Rect) -> bool {
+        fn enters(&self, bounds: &Rect, items: Range<u32>) -> bool {
+            assert!(!items.is_empty());
             bounds.distance2(self.at) <= 4.0
         }
         fn item(&mut self, item: u32) {

@@ -1,5 +1,8 @@
 //! Which input makes a domain, what is changed on the way, and what is refused and why.
 
 mod accepted;
+mod agreement;
+mod brute;
+mod large;
 mod refused;
 mod shapes;

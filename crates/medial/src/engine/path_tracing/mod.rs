@@ -25,6 +25,7 @@
 
 mod contacts;
 mod course;
+mod front;
 mod positions;
 mod rings;
 mod search;

@@ -3,6 +3,8 @@
 //! Two empty disks on a path and the footpoints between them close a pocket that only a complete
 //! boundary walk can occupy: so one corner of each hole, in a small index, is enough.
 
+use std::ops::Range;
+
 use super::search::{Found, Gap};
 use crate::domain::{Domain, Site};
 use crate::geom::{BoundsTree, Governor, Point, Rect, Visitor};
@@ -17,7 +19,7 @@ pub(super) struct HiddenRings {
 
 impl HiddenRings {
     /// The index over the given walks; `None` if none of them is a hole.
-    pub fn new(domain: &Domain, walks: std::ops::Range<usize>) -> Option<Self> {
+    pub fn new(domain: &Domain, walks: Range<usize>) -> Option<Self> {
         let mut bounds = Rect::EMPTY;
         let mut corners: Vec<(Point, u32)> = Vec::new();
         for walk in domain.walks()[walks].iter().filter(|w| w.hole) {
@@ -137,7 +139,7 @@ struct Query<'q> {
 }
 
 impl Visitor for Query<'_> {
-    fn enters(&self, bounds: &Rect) -> bool {
+    fn enters(&self, bounds: &Rect, _items: Range<u32>) -> bool {
         bounds.meets(&self.pocket.bounds)
     }
 

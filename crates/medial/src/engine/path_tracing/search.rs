@@ -8,6 +8,7 @@
 use std::cmp::Ordering;
 
 use super::course::Course;
+use super::front::Front;
 use super::rings::HiddenRings;
 use super::touch::{Touch, touch};
 use super::verify::{Verdict, Verify};
@@ -32,6 +33,8 @@ pub struct Candidate {
 pub(super) struct Start {
     pub centre: Point,
     pub radius: f64,
+    /// Bound on the error of both.
+    pub doubt: f64,
     /// Governors whose exact disk this is; `None` at a convex corner.
     pub triple: Option<[Site; 3]>,
 }
@@ -60,8 +63,7 @@ pub(super) struct Gap {
     pub left: Site,
     pub start: Start,
     pub course: Course,
-    /// Position of the start along the course.
-    pub position: f64,
+    pub front: Option<Front>,
 }
 
 /// Tries before only exact arithmetic proposes.
@@ -93,14 +95,10 @@ impl<'a> Search<'a> {
     pub fn find(&mut self, right: Site, left: Site, start: Start) -> Result<Found, EngineError> {
         self.tried.clear();
         self.banned.clear();
-        let course = Course::new(self.domain.governor(right), self.domain.governor(left));
-        let here = TouchingDisk {
-            origin: start.centre,
-            centre: Point::default(),
-            radius: start.radius,
-            bound: 0.0,
-        };
-        let gap = Gap { right, left, start, course, position: course.position(&here) };
+        let [r, l] = [right, left].map(|s| self.domain.governor(s));
+        let course = Course::new(r, l, start.centre, start.radius);
+        let front = Front::new(self.domain, right, left);
+        let gap = Gap { right, left, start, course, front };
         let mut found = if self.runs_into_corner(&gap) {
             Found::Corner(left.index())
         } else {
@@ -160,8 +158,8 @@ impl<'a> Search<'a> {
             }
         }
         let position = gap.course.position(&disk);
-        let slack = 1e-9 * (disk.radius + gap.start.radius) + 1e-13 * position.abs();
-        (position >= gap.position - slack).then_some(Proposal { site, disk, position })
+        let slack = 1e-9 * (disk.radius + gap.start.radius);
+        (position >= -slack).then_some(Proposal { site, disk, position })
     }
 
     /// Whether a site can be met ahead: not the governors, and not what their footpoints have
@@ -210,7 +208,7 @@ impl<'a> Search<'a> {
         let mut growing = true;
         // Doubling exponents end long before this.
         for _ in 0..1100 {
-            let mut position = gap.position + reach;
+            let mut position = reach;
             if best.is_some_and(|b| b.position <= position + reach) || !position.is_finite() {
                 break;
             }
@@ -256,7 +254,7 @@ impl<'a> Search<'a> {
             let governors = self.triple(gap, site).map(|s| self.domain.governor(s));
             let Some(disk) = TouchingDisk::guess(&governors, gap.start.centre) else { continue };
             let position = gap.course.position(&disk);
-            if position > gap.position && first.is_none_or(|f| position < f.1) {
+            if position > 0.0 && first.is_none_or(|f| position < f.1) {
                 first = Some((disk, position));
             }
         }
@@ -268,9 +266,11 @@ impl<'a> Search<'a> {
         let mut best = first;
         // Sites seen to cut a disk, or to stand at the end of a governor.
         let mut seen: Vec<Site> = Vec::new();
+        // How many of them the last resort has weighed; all there are, if the greatest number.
+        let mut known = 0;
         for round in 0..100_000_usize {
             let Some(proposal) = best else {
-                best = self.last_resort(gap, &mut seen, round)?;
+                best = self.last_resort(gap, &mut seen, &mut known)?;
                 continue;
             };
             let triple = self.triple(gap, proposal.site);
@@ -290,22 +290,17 @@ impl<'a> Search<'a> {
             let mut verify = Verify::certified(self, gap, triple, disk, position, floating);
             verify.run();
             let verdict = verify.verdict(exact);
-            if std::env::var("DBG").is_ok() && round < 20 {
-                eprintln!(
-                    "gap {:?} {:?} from {:?} r {} : {:?} disk {:?} r {} bound {} -> {:?}",
-                    gap.right,
-                    gap.left,
-                    gap.start.centre,
-                    gap.start.radius,
-                    triple,
-                    disk.position(),
-                    disk.radius,
-                    disk.bound,
-                    verdict
-                );
-            }
             match verdict {
                 Verdict::Better(next) => best = Some(next),
+                Verdict::Earlier(site) => {
+                    best = self
+                        .may_be_third(gap, site)
+                        .then(|| self.proposal_or_exact(gap, site))
+                        .flatten();
+                    if best.is_none() && !seen.contains(&site) {
+                        seen.push(site);
+                    }
+                }
                 Verdict::Cut(sites) => {
                     best = None;
                     let cutting = sites.iter().find_map(|&s| {
@@ -357,21 +352,24 @@ impl<'a> Search<'a> {
         &mut self,
         gap: &Gap,
         seen: &mut Vec<Site>,
-        round: usize,
+        known: &mut usize,
     ) -> Result<Option<Proposal>, EngineError> {
         for site in [self.domain.ahead(gap.right), self.domain.behind(gap.left)] {
             if !seen.contains(&site) && !self.banned.contains(&site) {
                 seen.push(site);
             }
         }
-        if let Some(site) = self.exact_first(gap, seen) {
+        // Something new was met since the last time: the earliest of it may be the end.
+        if seen.len() != std::mem::replace(known, seen.len())
+            && let Some(site) = self.exact_first(gap, seen)
+        {
             return Ok(self.proposal_or_exact(gap, site));
         }
         // Nothing that was met will do: take in everything, however far.
-        let everything = 2 * self.domain.edges().len();
-        if seen.len() >= everything || round > 1000 {
+        if *known == usize::MAX {
             return Err(self.broken(gap));
         }
+        *known = usize::MAX;
         let edges = self.tree.items();
         seen.clear();
         for k in edges {
@@ -490,8 +488,7 @@ impl<'a> Search<'a> {
     fn is_ahead(&self, gap: &Gap, disk: &TouchingDisk, triple: &[Site; 3]) -> bool {
         let Some(start) = gap.start.triple else { return true };
         let position = gap.course.position(disk);
-        let doubt = 1e-6 * (disk.radius + gap.start.radius) + 1e-9 * position.abs();
-        if position > gap.position + doubt {
+        if position > 1e-6 * (disk.radius + gap.start.radius) + disk.bound {
             return true;
         }
         match (self.exact(&start), self.exact(triple)) {

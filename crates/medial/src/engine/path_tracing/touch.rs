@@ -9,8 +9,9 @@ use crate::geom::predicates::{Element, ExactDisk};
 pub(super) enum Touch {
     /// Outside, or seen from behind.
     Clear,
-    /// The disk is cut.
-    Cut,
+    /// The disk is cut, and this part of the edge is nearest to its centre: the edge itself, or
+    /// the corner at one of its ends.
+    Cut(Site),
     /// The disk is touched by the edge, by the reflex corner at one of its ends, or by both.
     Contact {
         /// The edge touches, perhaps at its end.
@@ -34,9 +35,9 @@ pub(super) fn touch(domain: &Domain, disk: &ExactDisk, edge: u32) -> Touch {
     match disk.front(a, b) {
         // What lies between the centre and the back of an edge is asked itself.
         Less => Touch::Clear,
-        Equal => Touch::Cut,
+        Equal => Touch::Cut(Site::edge(edge)),
         Greater => match disk.side(Element::Edge(a, b)) {
-            Less => Touch::Cut,
+            Less => Touch::Cut(Site::edge(edge)),
             Equal => Touch::Contact { edge: true, corner: None },
             Greater => Touch::Clear,
         },
@@ -53,7 +54,11 @@ fn touch_end(
     on_normal: bool,
 ) -> Touch {
     match disk.side(Element::Corner(p)) {
-        Less => Touch::Cut,
+        Less => Touch::Cut(if domain.edge(corner).corner == Corner::Convex {
+            Site::edge(edge)
+        } else {
+            Site::corner(corner)
+        }),
         Greater => Touch::Clear,
         Equal => {
             let (a, b) = (domain.edge(edge).start, domain.end(edge));

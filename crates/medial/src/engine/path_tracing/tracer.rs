@@ -8,13 +8,15 @@ use super::search::{Candidate, Found, Search, Start};
 use crate::axis::{self, Accuracy, Engine, KeypointKind, MedialAxis, Path, Side, SiteKind};
 use crate::domain::{Corner, Domain, Site};
 use crate::engine::EngineError;
-use crate::geom::Point;
+use crate::geom::{Point, TouchingDisk};
 
 /// A keypoint while the axis grows.
 #[derive(Clone, Debug)]
 struct Knot {
     centre: Point,
     radius: f64,
+    /// Bound on the error of both.
+    doubt: f64,
     /// Sites that define its exact disk; `None` at a convex corner.
     triple: Option<[Site; 3]>,
     /// Its contacts, counterclockwise, in the common list.
@@ -128,7 +130,8 @@ impl<'a> Tracer<'a> {
     fn trace(&mut self, gap: u32) -> Result<(), EngineError> {
         let GapRecord { knot, right, left, .. } = self.gaps[gap as usize];
         let from = &self.knots[knot as usize];
-        let start = Start { centre: from.centre, radius: from.radius, triple: from.triple };
+        let Knot { centre, radius, doubt, triple, .. } = *from;
+        let start = Start { centre, radius, doubt, triple };
         let broken = |stage| EngineError::Internal { stage, place: start.centre };
         let search = self.search.as_mut().ok_or(broken("preparing the search"))?;
         let found = search.find(right, left, start)?;
@@ -144,7 +147,7 @@ impl<'a> Tracer<'a> {
                 let to = match self.known_knot(&contacts) {
                     Some(to) => to,
                     None => {
-                        let to = self.add_knot(disk.position(), disk.radius, triple, &contacts);
+                        let to = self.add_knot(&disk, triple, &contacts);
                         // The path that continues this one is traced first.
                         let gaps = self.knots[to as usize].gaps.clone();
                         self.stack.extend(gaps.rev().map(|g| g as u32));
@@ -181,6 +184,7 @@ impl<'a> Tracer<'a> {
         self.knots.push(Knot {
             centre: edge.start,
             radius: 0.0,
+            doubt: 0.0,
             triple: None,
             contacts: first..first + 2,
             gaps: gap..gap + 1,
@@ -188,13 +192,9 @@ impl<'a> Tracer<'a> {
         knot
     }
 
-    fn add_knot(
-        &mut self,
-        centre: Point,
-        radius: f64,
-        triple: [Site; 3],
-        contacts: &[Site],
-    ) -> u32 {
+    fn add_knot(&mut self, disk: &TouchingDisk, triple: [Site; 3], contacts: &[Site]) -> u32 {
+        let centre = disk.position();
+        let rounding = centre.x.abs() + centre.y.abs() + disk.origin.x.abs() + disk.origin.y.abs();
         let knot = self.knots.len() as u32;
         let first = self.contacts.len();
         self.contacts.extend_from_slice(contacts);
@@ -212,7 +212,8 @@ impl<'a> Tracer<'a> {
         }
         self.knots.push(Knot {
             centre,
-            radius,
+            radius: disk.radius,
+            doubt: disk.bound + f64::EPSILON * rounding,
             triple: Some(triple),
             contacts: first..first + n,
             gaps: first_gap..self.gaps.len(),

@@ -1,6 +1,8 @@
 use std::cmp::Ordering;
+use std::ops::Range;
 
 use super::contacts;
+use super::front::Lune;
 use super::search::{Gap, Proposal, Search};
 use super::touch::Touch;
 use crate::domain::{Corner, Site};
@@ -16,7 +18,9 @@ pub(super) enum Verdict {
     Clear(Vec<Site>),
     /// Something cuts it, and this comes earlier on the path.
     Better(Proposal),
-    /// These sites cut it, or stand where a governor of the path ends.
+    /// This site cuts it, exactly.
+    Earlier(Site),
+    /// Some of these sites cut it, or stand where a governor of the path ends.
     Cut(Vec<Site>),
     /// The third governor is touched beyond its end.
     OffEdge,
@@ -39,6 +43,7 @@ pub(super) struct Verify<'s, 'a> {
     floating: bool,
     centre: Point,
     reach2: f64,
+    lune: Lune,
     cut: Vec<u32>,
     doubtful: Vec<u32>,
 }
@@ -65,6 +70,7 @@ impl<'s, 'a> Verify<'s, 'a> {
             floating,
             centre: Point::default(),
             reach2: 0.0,
+            lune: Lune::EVERYTHING,
             cut: Vec::new(),
             doubtful: Vec::new(),
         };
@@ -101,6 +107,8 @@ impl<'s, 'a> Verify<'s, 'a> {
         let bound = if disk.bound.is_finite() { disk.bound } else { 0.0 };
         let reach = (disk.radius + bound) * (1.0 + 64.0 * U) + 64.0 * U * size;
         self.reach2 = reach * reach * (1.0 + 8.0 * U);
+        let start = &self.gap.start;
+        self.lune = Lune::new(start.centre, start.radius, start.doubt, &disk);
     }
 
     /// Sites of an edge that could become third governors.
@@ -201,11 +209,10 @@ impl<'s, 'a> Verify<'s, 'a> {
             }
             contacts.push(site);
             let reflex = |k: u32| domain.edge(k).corner == Corner::Reflex;
-            if at_start == Ordering::Equal && reflex(edge) {
-                contacts.push(Site::corner(edge));
-            }
-            if at_end == Ordering::Equal && reflex(next) {
-                contacts.push(Site::corner(next));
+            for (side, corner) in [(at_start, edge), (at_end, next)] {
+                if side == Ordering::Equal && reflex(corner) && !corner_at(corner) {
+                    contacts.push(Site::corner(corner));
+                }
             }
         }
         for &edge in &self.doubtful {
@@ -215,7 +222,7 @@ impl<'s, 'a> Verify<'s, 'a> {
             let Some(disk) = &exact else { return Verdict::OffEdge };
             match search.touch(disk, edge) {
                 Touch::Clear => {}
-                Touch::Cut => return Verdict::Cut(self.sites_of(edge).collect()),
+                Touch::Cut(part) => return Verdict::Earlier(part),
                 Touch::Contact { edge: on_edge, corner } => {
                     contacts.extend(on_edge.then_some(Site::edge(edge)));
                     contacts.extend(corner);
@@ -250,14 +257,19 @@ impl<'s, 'a> Verify<'s, 'a> {
 
 impl Visitor for Verify<'_, '_> {
     #[inline]
-    fn enters(&self, bounds: &Rect) -> bool {
+    fn enters(&self, bounds: &Rect, items: Range<u32>) -> bool {
         bounds.distance2(self.centre) <= self.reach2
+            && self.lune.meets(bounds)
+            && self.gap.front.is_none_or(|f| f.meets(&items))
     }
 
     fn item(&mut self, edge: u32) {
         let domain = self.search.domain;
         let site = Site::edge(edge);
-        if site == self.gap.right || site == self.gap.left {
+        if site == self.gap.right
+            || site == self.gap.left
+            || self.gap.front.is_some_and(|f| !f.holds(edge))
+        {
             return;
         }
         let record = domain.edge(edge);

@@ -5,19 +5,10 @@ use std::cmp::Ordering;
 use dashu_int::IBig;
 
 use super::Element;
-use super::disk::Radius;
 use super::grid::{Grid, Vector};
+use super::homogeneous::{Homogeneous, Radius};
 use super::tower::{Surd, Tower, sign_of_integer};
 use crate::geom::Point;
-
-/// A disk on a grid: centre `(x, y)/w` with `w > 0`, and its radius.
-pub(super) struct Homogeneous {
-    pub(super) tower: Tower,
-    pub(super) x: Surd,
-    pub(super) y: Surd,
-    pub(super) w: Surd,
-    pub(super) radius: Radius,
-}
 
 /// The elements turned so that corners come first, in the same cyclic order.
 pub(super) fn corners_first([a, b, c]: [Element; 3]) -> [Element; 3] {
@@ -54,6 +45,21 @@ pub(super) fn local_origin(elements: &[Element; 3]) -> Point {
 ///
 /// `grid` has the origin [`local_origin`] gives and holds all the points.
 pub(super) fn construct(elements: &[Element; 3], grid: Grid) -> Option<Homogeneous> {
+    let through_origin = matches!(elements[0], Element::Corner(_));
+    let Form { tower, x, y, w, radius } = form(elements, grid)?;
+    Some(Homogeneous { grid, through_origin, tower, x, y, w, radius })
+}
+
+/// The numbers of a [`Homogeneous`] disk.
+struct Form {
+    tower: Tower,
+    x: Surd,
+    y: Surd,
+    w: Surd,
+    radius: Radius,
+}
+
+fn form(elements: &[Element; 3], grid: Grid) -> Option<Form> {
     match *elements {
         [Element::Corner(_), Element::Corner(q), Element::Corner(s)] => {
             three_corners(&grid.local(q), &grid.local(s))
@@ -102,7 +108,7 @@ impl Line {
 }
 
 /// Corners at the origin, `a` and `b`.
-fn three_corners(a: &Vector, b: &Vector) -> Option<Homogeneous> {
+fn three_corners(a: &Vector, b: &Vector) -> Option<Form> {
     let w = a.cross(b) << 1;
     if sign_of_integer(&w) != Ordering::Greater {
         return None;
@@ -112,7 +118,7 @@ fn three_corners(a: &Vector, b: &Vector) -> Option<Homogeneous> {
     let y = &a.x * &of_b - &b.x * &of_a;
     // r = |a|·|b|·|a - b| / w
     let square = of_a * of_b * a.sub(b).norm2();
-    Some(Homogeneous {
+    Some(Form {
         tower: Tower::default(),
         x: Surd::integer(x),
         y: Surd::integer(y),
@@ -122,7 +128,7 @@ fn three_corners(a: &Vector, b: &Vector) -> Option<Homogeneous> {
 }
 
 /// Corners at the origin and `w`, and an edge.
-fn two_corners(w: &Vector, edge: &Line) -> Option<Homogeneous> {
+fn two_corners(w: &Vector, edge: &Line) -> Option<Form> {
     let (u, v) = (edge.d.dot(w), edge.d.cross(w));
     let hp = &edge.h;
     let hq = hp + &v;
@@ -141,7 +147,7 @@ fn two_corners(w: &Vector, edge: &Line) -> Option<Homogeneous> {
         let along = Surd::integer((&u * hp) << 2);
         let across = Surd::integer(&u2 - &hp2);
         let (x, y) = edge.place(&along, &across);
-        return Some(Homogeneous {
+        return Some(Form {
             tower,
             x,
             y,
@@ -159,7 +165,7 @@ fn two_corners(w: &Vector, edge: &Line) -> Option<Homogeneous> {
     let along = foot.scale(&(v << 1));
     let across = square.clone().plus(&-&hv);
     let (x, y) = edge.place(&along, &across);
-    Some(Homogeneous {
+    Some(Form {
         tower,
         x,
         y,
@@ -170,7 +176,7 @@ fn two_corners(w: &Vector, edge: &Line) -> Option<Homogeneous> {
 }
 
 /// A corner at the origin and two edges.
-fn one_corner(first: &Line, second: &Line) -> Option<Homogeneous> {
+fn one_corner(first: &Line, second: &Line) -> Option<Form> {
     let (n1, h1, h2) = (&first.n, &first.h, &second.h);
     let (s1, s2) = (sign_of_integer(h1), sign_of_integer(h2));
     if s1 == Ordering::Less || s2 == Ordering::Less || (s1.is_eq() && s2.is_eq()) {
@@ -189,7 +195,7 @@ fn one_corner(first: &Line, second: &Line) -> Option<Homogeneous> {
         // d1·c = √(h1·h2·n1/alpha),  2r·√n1 = h1 + h2·n1/alpha
         let along = tower.root(Surd::integer(h1 * &far * &alpha)).shift(1);
         let (x, y) = first.place(&along, &Surd::integer(&far - &near));
-        return Some(Homogeneous {
+        return Some(Form {
             tower,
             x,
             y,
@@ -210,7 +216,7 @@ fn one_corner(first: &Line, second: &Line) -> Option<Homogeneous> {
     let along = up.scale(h1).add(&gamma).scale(&-c);
     let across = reach.clone().plus(&-(h1 * &c2));
     let (x, y) = first.place(&along, &across);
-    Some(Homogeneous {
+    Some(Form {
         tower,
         x,
         y,
@@ -220,7 +226,7 @@ fn one_corner(first: &Line, second: &Line) -> Option<Homogeneous> {
 }
 
 /// Three edges.
-fn no_corner(lines: &[Line; 3]) -> Option<Homogeneous> {
+fn no_corner(lines: &[Line; 3]) -> Option<Form> {
     let [l1, l2, l3] = lines;
     let mut tower = Tower::default();
     let roots = [
@@ -243,7 +249,7 @@ fn no_corner(lines: &[Line; 3]) -> Option<Homogeneous> {
     let pairs = [(l2, l3), (l3, l1), (l1, l2)];
     let x = pairs.map(|(j, k)| &j.d.x * &k.h - &k.d.x * &j.h);
     let y = pairs.map(|(j, k)| &j.d.y * &k.h - &k.d.y * &j.h);
-    Some(Homogeneous {
+    Some(Form {
         x: weighted(&roots, &x),
         y: weighted(&roots, &y),
         tower,

@@ -2,11 +2,13 @@
 
 use std::cell::Cell;
 
-/// Calls that each stage answered on this thread since [`reset_counts`].
+/// Questions that each stage answered on this thread since [`reset_counts`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Counts {
     /// The element tested governs the disk, or ends an edge that does.
     pub structure: u64,
+    /// Doubles with a bound on their error, for a disk already built.
+    pub rounded: u64,
     /// Four corners, by one determinant.
     pub corners: u64,
     /// Four edges, by minors of 256 bits.
@@ -15,13 +17,13 @@ pub struct Counts {
     pub two_ends: u64,
     /// Exact disks built.
     pub disks: u64,
-    /// Questions answered by an exact disk in the tower of roots.
+    /// The tower of roots, for a disk already built.
     pub tower: u64,
 }
 
 thread_local! {
     static COUNTS: Cell<Counts> = const {
-        Cell::new(Counts { structure: 0, corners: 0, edges: 0, two_ends: 0, disks: 0, tower: 0 })
+        Cell::new(Counts { structure: 0, rounded: 0, corners: 0, edges: 0, two_ends: 0, disks: 0, tower: 0 })
     };
 }
 

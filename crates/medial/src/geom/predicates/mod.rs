@@ -5,6 +5,9 @@ mod counts;
 mod disk;
 mod ends;
 mod grid;
+mod homogeneous;
+mod near;
+mod rough;
 mod round;
 mod stages;
 mod tower;
@@ -26,3 +29,6 @@ pub enum Element {
     /// disks are, lies to the left.
     Edge(Point, Point),
 }
+
+#[cfg(test)]
+mod tests;

@@ -5,18 +5,15 @@ use std::cmp::Ordering;
 use dashu_int::ops::{BitTest, DivRem, SquareRoot};
 use dashu_int::{IBig, Sign};
 
-use super::disk::{ExactDisk, Radius};
 use super::grid::integer;
+use super::homogeneous::{Homogeneous, Radius};
 use super::tower::{Surd, Tower};
 use crate::geom::Point;
 
-impl ExactDisk {
-    /// The centre and the radius, each coordinate rounded to the nearest double.
-    ///
-    /// Within an ulp where the exact value lies too close to the middle of two doubles to tell;
-    /// exactly zero where it is.
-    #[must_use]
-    pub fn approximate(&self) -> (Point, f64) {
+impl Homogeneous {
+    /// The centre and the radius, each coordinate rounded to the nearest double, or to the next one
+    /// where that is too close to call.
+    pub(super) fn nearest(&self) -> (Point, f64) {
         let unit = self.grid.unit;
         let origin = self.grid.origin;
         let coordinate = |local: &Surd, origin: f64| {
@@ -43,21 +40,25 @@ impl ExactDisk {
 
 /// The double nearest to `numerator/denominator·2^unit`, for a positive denominator.
 fn nearest(tower: &Tower, numerator: &Surd, denominator: &Surd, unit: i32) -> f64 {
-    if tower.sign(numerator) == Ordering::Equal {
-        return 0.0;
-    }
-    // The quotient is not zero, so enough bits separate it from zero and, unless it is the middle of
-    // two doubles, decide its rounding. Two attempts that see only two neighbours settle the rest.
+    // Enough bits separate a quotient that is not zero from zero and, unless it is the middle of two
+    // doubles, decide its rounding. Two attempts that see only two neighbours settle the rest.
     let mut neighbours = false;
+    let mut may_be_zero = true;
     let mut bits = 64;
     loop {
         let roots = Interval::roots(tower, bits);
-        let numerator = Interval::enclose(numerator.coefficients(), &roots, bits);
-        let denominator = Interval::enclose(denominator.coefficients(), &roots, bits);
+        let above = Interval::enclose(numerator.coefficients(), &roots, bits);
+        let below = Interval::enclose(denominator.coefficients(), &roots, bits);
         bits *= 2;
-        let Some((low, high)) = numerator.quotient(&denominator, unit) else { continue };
+        let Some((low, high)) = above.quotient(&below, unit) else { continue };
         if low == high {
             return low;
+        }
+        if may_be_zero && low <= 0.0 && high >= 0.0 {
+            if tower.sign(numerator) == Ordering::Equal {
+                return 0.0;
+            }
+            may_be_zero = false;
         }
         if low.next_up() == high {
             if neighbours {

@@ -33,23 +33,29 @@ pub fn in_disk(elements: [Element; 3], t: Element) -> Ordering {
         count(|counts| counts.structure += 1);
         return Ordering::Equal;
     }
-    let special = match (elements, t) {
-        ([Element::Corner(p), Element::Corner(q), Element::Corner(s)], Element::Corner(t)) => {
+    // Without a disk nothing is cut.
+    special_side(elements, t)
+        .unwrap_or_else(|| ExactDisk::new(elements).map_or(Ordering::Greater, |d| d.side(t)))
+}
+
+/// The side of an element by a special stage, if there is one for its kind and it can tell.
+pub(super) fn special_side(elements: [Element; 3], t: Element) -> Option<Ordering> {
+    use Element::{Corner, Edge};
+    match (elements, t) {
+        ([Corner(p), Corner(q), Corner(s)], Corner(t)) => {
             four_corners(p, q, s, t).inspect(|_| count(|counts| counts.corners += 1))
         }
-        ([Element::Edge(a, b), Element::Edge(c, d), Element::Edge(e, f)], Element::Edge(g, h)) => {
+        ([Edge(a, b), Edge(c, d), Edge(e, f)], Edge(g, h)) => {
             four_edges([(a, b), (c, d), (e, f), (g, h)])
                 .inspect(|_| count(|counts| counts.edges += 1))
         }
         _ => None,
-    };
-    // Without a disk nothing is cut.
-    special.unwrap_or_else(|| ExactDisk::new(elements).map_or(Ordering::Greater, |d| d.side(t)))
+    }
 }
 
 /// The side of `t` for the circle through three corners in counterclockwise order; `None` if the
 /// exponents are too far from 1.
-pub(crate) fn four_corners(p: Point, q: Point, s: Point, t: Point) -> Option<Ordering> {
+fn four_corners(p: Point, q: Point, s: Point, t: Point) -> Option<Ordering> {
     let points = [p, q, s, t];
     if let Some([a, b, c]) = integers(t, [p, q, s], 30) {
         // Squares and cross products stay below 2^61, so the sum stays below 2^124.
@@ -72,7 +78,7 @@ pub(crate) fn four_corners(p: Point, q: Point, s: Point, t: Point) -> Option<Ord
 ///
 /// The answer is the sign of a sum `Σ kᵢ√nᵢ` over the four edges. Equal radicands are added up first,
 /// so that true ties, whose roots are dependent, mostly end in sums of zero.
-pub(crate) fn four_edges(edges: [(Point, Point); 4]) -> Option<Ordering> {
+fn four_edges(edges: [(Point, Point); 4]) -> Option<Ordering> {
     let [(a, b), (c, d), (e, f), (g, h)] = edges;
     // Coordinates below 2^61 make directions below 2^62, their cross products and squares below 2^125,
     // distances below 2^124, a factor below 3·2^249, and the sum of all four below 2^253.
@@ -120,7 +126,7 @@ const SUM_ERROR: f64 = 1e-29;
 fn sign_of_sum(terms: &[(u128, Wide); 4]) -> Option<Ordering> {
     let mut sum = Double::ZERO;
     let mut size = 0.0;
-    for (radicand, factor) in terms {
+    for (radicand, factor) in terms.iter().filter(|term| term.1 != Wide::ZERO) {
         let term = factor.to_double() * double(*radicand).sqrt();
         sum = sum + term;
         size += term.value().abs();

@@ -5,6 +5,8 @@ use std::cmp::Ordering;
 use dashu_int::ops::SquareRootRem;
 use dashu_int::{IBig, Sign};
 
+use super::rough::Rough;
+
 /// An element of a [`Tower`]: an integer combination of products of its roots.
 ///
 /// Coefficient `i` belongs to the product of the roots whose bit is set in `i`, so an element that
@@ -57,12 +59,19 @@ impl Surd {
 pub(super) struct Tower {
     /// The element at place `k` is positive and uses the first `k` roots only.
     radicands: Vec<Surd>,
+    /// The roots of the radicands, rounded.
+    roots: Vec<Rough>,
 }
 
 impl Tower {
     /// The radicands, lowest level first.
     pub(super) fn radicands(&self) -> &[Surd] {
         &self.radicands
+    }
+
+    /// The roots of the radicands, rounded.
+    pub(super) fn roots(&self) -> &[Rough] {
+        &self.roots
     }
 
     /// The product.
@@ -116,6 +125,7 @@ impl Tower {
         let level = match self.radicands.iter().position(|known| known.0 == radicand.0) {
             Some(level) => level,
             None => {
+                self.roots.push(Rough::of(&radicand.0, &self.roots, 0).root());
                 self.radicands.push(radicand);
                 self.radicands.len() - 1
             }
@@ -178,6 +188,9 @@ impl Tower {
         let a = trimmed(a);
         if a.len() == 1 {
             return sign_of_integer(&a[0]);
+        }
+        if let Some(sign) = Rough::sign(a, &self.roots) {
+            return sign;
         }
         let half = a.len() / 2;
         let (low, high) = a.split_at(half);

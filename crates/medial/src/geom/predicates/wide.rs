@@ -71,12 +71,12 @@ impl Wide {
 
 /// The value to about 106 bits.
 pub(super) fn double(value: u128) -> Double {
-    // Halves of 64 bits, each a sum of two doubles without error.
-    let half = |bits: u64| {
-        Double::from((bits >> 32) as f64) * Double::from(4_294_967_296.0)
-            + Double::from((bits & 0xffff_ffff) as f64)
-    };
-    half((value >> 64) as u64) * Double::from(18_446_744_073_709_551_616.0) + half(value as u64)
+    // Three pieces of at most 43 bits, each a double without error; so is the sum of the upper two.
+    const MASK: u128 = (1 << 43) - 1;
+    let upper = (value >> 85) as u64 as f64 * 2f64.powi(85);
+    let middle = ((value >> 42) & MASK) as u64 as f64 * 2f64.powi(42);
+    let lower = (value & (MASK >> 1)) as u64 as f64;
+    Double::difference(upper, -middle) + Double::from(lower)
 }
 
 /// The product in two halves.

@@ -1,7 +1,7 @@
 //! Reproducible points and elements of many kinds.
 
-use medial::geom::Point;
-use medial::geom::predicates::Element;
+use crate::geom::Point;
+use crate::geom::predicates::Element;
 
 /// A small generator (xorshift), so that every run sees the same cases.
 pub struct Random(u64);

@@ -7,10 +7,10 @@
 
 use std::cmp::Ordering;
 
+use crate::geom::Point;
+use crate::geom::predicates::Element;
 use dashu_float::FBig;
 use dashu_float::round::mode::HalfEven;
-use medial::geom::Point;
-use medial::geom::predicates::Element;
 
 pub type Real = FBig<HalfEven, 2>;
 

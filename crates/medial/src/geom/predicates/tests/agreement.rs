@@ -2,12 +2,12 @@
 
 use std::cmp::Ordering;
 
-use medial::geom::Point;
-use medial::geom::predicates::{Element, ExactDisk};
+use crate::geom::Point;
+use crate::geom::predicates::{Element, ExactDisk};
 
-use crate::circle::Shape;
-use crate::random::{Family, Random};
-use crate::reference::{Disk, Vector, nearest, sign};
+use super::circle::Shape;
+use super::random::{Family, Random};
+use super::reference::{Disk, Vector, nearest, sign};
 
 /// How often each answer came.
 #[derive(Default, Debug)]

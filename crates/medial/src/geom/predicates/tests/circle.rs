@@ -1,9 +1,9 @@
 //! Corners on a rational circle and tangents of it, so that ties are exact by construction.
 
-use medial::geom::Point;
-use medial::geom::predicates::Element;
+use crate::geom::Point;
+use crate::geom::predicates::Element;
 
-use crate::random::Random;
+use super::random::Random;
 
 /// The circle x² + y² = 1105², which has 108 integer points, multiplied by `turn` as a complex number,
 /// moved by `shift` and scaled by a power of two.

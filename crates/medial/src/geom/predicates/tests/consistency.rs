@@ -2,10 +2,10 @@
 
 use std::cmp::Ordering;
 
-use medial::geom::Point;
-use medial::geom::predicates::{Element, ExactDisk};
+use crate::geom::Point;
+use crate::geom::predicates::{Element, ExactDisk};
 
-use crate::random::{Family, Random};
+use super::random::{Family, Random};
 
 /// Every disk among random triples, with its elements, at most `n` for a family and a kind.
 fn disks(n: usize, mut each: impl FnMut(Family, usize, [Element; 3], ExactDisk)) {

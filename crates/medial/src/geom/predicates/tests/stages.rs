@@ -2,13 +2,13 @@
 
 use std::cmp::Ordering;
 
-use medial::geom::Point;
-use medial::geom::predicates::{
+use crate::geom::Point;
+use crate::geom::predicates::{
     Element, ExactDisk, First, Leaving, counts, in_disk, reset_counts, two_ends,
 };
 
-use crate::circle::Shape;
-use crate::random::{Family, Random};
+use super::circle::Shape;
+use super::random::{Family, Random};
 
 #[test]
 fn short_cuts_answer_as_the_tower_does() {
@@ -34,8 +34,9 @@ fn short_cuts_answer_as_the_tower_does() {
                 if matches!(t, Element::Edge(a, b) if a == b) {
                     continue;
                 }
-                let answer = in_disk(elements, t);
-                assert_eq!(answer, disk.side(t), "{elements:?} {t:?}");
+                let answer = disk.side_in_tower(t);
+                assert_eq!(in_disk(elements, t), answer, "{elements:?} {t:?}");
+                assert_eq!(disk.side(t), answer, "{elements:?} {t:?}");
                 answers[(answer as i8 + 1) as usize] += 1;
             }
         }
@@ -48,24 +49,40 @@ fn ties_of_one_kind_never_reach_the_tower() {
     for shape in Shape::all() {
         for corner in [true, false] {
             let mut random = Random::new(43);
-            reset_counts();
+            let mut built = 0;
             for k in 0..60 {
                 let (elements, t) = shape.touching_of_kind(&mut random, corner);
+                reset_counts();
                 assert_eq!(in_disk(elements, t), Ordering::Equal);
-                let before = counts();
-                let nudged = nudged(t, k % 2 == 0);
+                assert_eq!(counts().disks, 0, "{elements:?} {t:?}");
+                let near = nudged(t, k % 2 == 0);
+                let answer = in_disk(elements, near);
+                built += counts().disks;
                 let disk = ExactDisk::new(elements).expect("a disk by construction");
-                let tower = counts().disks;
-                let answer = in_disk(elements, nudged);
-                assert_eq!(before.disks + 1, tower);
-                assert_eq!(answer, disk.side(nudged), "{elements:?} {nudged:?}");
+                assert_eq!(answer, disk.side_in_tower(near), "{elements:?} {near:?}");
             }
-            // 60 ties and 60 near misses, none of which built a disk of its own.
-            let counts = counts();
-            let special = if corner { counts.corners } else { counts.edges };
-            assert_eq!(counts.disks, 60 + (120 - special - counts.structure), "{counts:?}");
-            assert!(special + counts.structure >= 100, "{shape:?} {corner} {counts:?}");
+            // Close to a tie a pair of doubles may be too short, but seldom.
+            assert!(built <= 6, "{shape:?} {corner} {built}");
         }
+    }
+}
+
+#[test]
+fn doubles_answer_nearly_everything_generic() {
+    for family in [Family::Full, Family::Offset, Family::Degrees, Family::Grid, Family::Scales] {
+        let mut random = Random::new(47);
+        reset_counts();
+        for k in 0..2000 {
+            let elements = [0, 1, 2].map(|i| family.element(&mut random, i < k % 4));
+            let t = family.element(&mut random, k % 3 == 0);
+            let Some(disk) = ExactDisk::new(elements) else { continue };
+            let answer = disk.side(t);
+            assert_eq!(answer, disk.side_in_tower(t), "{elements:?} {t:?}");
+        }
+        // Each question was asked of the tower once more, as a check.
+        let counts = counts();
+        let first = counts.tower - counts.disks;
+        assert!(counts.disks > 500 && 20 * first < counts.disks, "{family:?} {counts:?}");
     }
 }
 

@@ -1,0 +1,245 @@
+use crate::failure::{Failure, Status};
+use clap::error::ErrorKind;
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use medial::axis::{Engine, Side};
+use medial_io::Format;
+use medial_io::svg::Extra;
+use std::num::NonZeroUsize;
+use std::path::PathBuf;
+
+/// Exact medial axes of polygons.
+#[derive(Debug, Parser)]
+#[command(name = "medial", version, after_help = STATUS_HELP)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+const STATUS_HELP: &str = "\
+Exit status: 0 all done; 1 no usable result; 2 wrong usage; 3 some features were left out;
+4 `check` found defects.";
+
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Compute the medial axis of polygons
+    Axis(AxisArgs),
+    /// Find every defect of an axis document
+    Check(CheckArgs),
+}
+
+const AXIS_HELP: &str = "\
+Examples:
+  medial axis fixtures/river.geojson -o river.svg
+  medial axis fixtures/river.geojson -o river.png --draw disks
+  medial axis fixtures/shapes.wkt --keypoints --z radius -o axes.geojson
+  medial axis fixtures/shapes.wkt --to wkt
+  medial axis - --from wkt --to json < fixtures/shapes.wkt
+  medial axis fixtures/mixed.geojson --report report.json -o axes.csv; test $? -eq 3
+
+Exit status: 0 all done; 1 no usable result; 2 wrong usage; 3 some features were left out.";
+
+/// Arguments of `medial axis`.
+#[derive(Debug, Args)]
+#[command(after_help = AXIS_HELP)]
+pub struct AxisArgs {
+    /// Polygons: GeoJSON, GeoJSON lines, WKT or rings; `-` for standard input
+    pub input: PathBuf,
+    /// File to write; by default, and for `-`, standard output
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<PathBuf>,
+    /// Format of the output: geojson, geojsonl, json (axis document), wkt, csv, svg, png; by
+    /// default that of the extension, on standard output geojson
+    #[arg(long, value_name = "FORMAT")]
+    pub to: Option<Format>,
+    /// Who computes the axis: path_tracing
+    #[arg(long, value_name = "NAME", default_value = "path_tracing", value_parser = engine)]
+    pub engine: Engine,
+    /// Side of the boundary: interior
+    #[arg(long, default_value = "interior", value_parser = side)]
+    pub side: Side,
+    /// Largest distance between a curve and the polyline drawn for it, in units of the input; by
+    /// default 1e-4 of the longer side of the feature's box
+    #[arg(long, value_name = "T", value_parser = positive)]
+    pub tolerance: Option<f64>,
+    /// Write keypoints too (geojson, geojsonl, wkt; pictures and axis documents have them)
+    #[arg(long)]
+    pub keypoints: bool,
+    /// Write the radius as third coordinate (geojson, geojsonl, wkt, csv)
+    #[arg(long, value_name = "VALUE")]
+    pub z: Option<Height>,
+    /// What a picture shows besides, separated by commas: disks, footpoints, cells, zones,
+    /// governors
+    #[arg(long, value_name = "WHAT", value_delimiter = ',', value_parser = extra)]
+    pub draw: Vec<Extra>,
+    #[command(flatten)]
+    pub common: Common,
+}
+
+const CHECK_HELP: &str = "\
+Examples:
+  medial check fixtures/shapes.wkt fixtures/shapes.axis.json
+  medial axis fixtures/shapes.wkt --to json | medial check fixtures/shapes.wkt - --to json
+
+Exit status: 0 no defect; 1 no usable result; 2 wrong usage; 3 some features were left out;
+4 there are defects.";
+
+/// Arguments of `medial check`.
+#[derive(Debug, Args)]
+#[command(after_help = CHECK_HELP)]
+pub struct CheckArgs {
+    /// Polygons: GeoJSON, GeoJSON lines, WKT or rings; `-` for standard input
+    pub domain: PathBuf,
+    /// Axis document of these polygons; `-` for standard input
+    pub axis: PathBuf,
+    /// File to write; by default, and for `-`, standard output
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<PathBuf>,
+    /// Form of the result: text, or json with one line for each feature
+    #[arg(long, value_name = "FORM", default_value = "text")]
+    pub to: Form,
+    #[command(flatten)]
+    pub common: Common,
+}
+
+/// Arguments of every command that reads polygons.
+#[derive(Debug, Args)]
+pub struct Common {
+    /// Format of the polygons: geojson, geojsonl, wkt, rings; by default that of the extension,
+    /// else told by the content
+    #[arg(long, value_name = "FORMAT")]
+    pub from: Option<Format>,
+    /// Refuse what would be repaired
+    #[arg(long)]
+    pub strict: bool,
+    /// Find out which rings are holes by their depth, whatever their place
+    #[arg(long)]
+    pub regroup: bool,
+    /// What to do about a bad feature
+    #[arg(long, value_name = "WHAT", default_value = "skip")]
+    pub on_error: OnError,
+    /// Number of threads; by default one for each processor
+    #[arg(long, value_name = "N")]
+    pub threads: Option<NonZeroUsize>,
+    /// Write to FILE, as JSON, what was repaired, dropped or refused
+    #[arg(long, value_name = "FILE")]
+    pub report: Option<PathBuf>,
+    /// Write to FILE, as JSON, how long each stage took
+    #[arg(long, value_name = "FILE")]
+    pub timings: Option<PathBuf>,
+    /// Show the progress on standard error; auto: on a terminal
+    #[arg(long, value_name = "WHEN", default_value = "auto")]
+    pub progress: When,
+    /// Print errors only, no warnings
+    #[arg(short, long)]
+    pub quiet: bool,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Height {
+    /// The radius of the maximal disk.
+    Radius,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Form {
+    Text,
+    Json,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum OnError {
+    /// Leave it out and go on.
+    Skip,
+    /// Stop without a result.
+    Stop,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum When {
+    /// If standard error is a terminal.
+    Auto,
+    Always,
+    Never,
+}
+
+/// The command line, understood; help and errors are told in one line or as asked for.
+pub fn parse() -> Result<Command, Failure> {
+    Cli::try_parse().map(|cli| cli.command).map_err(|error| match error.kind() {
+        ErrorKind::DisplayHelp | ErrorKind::DisplayVersion => match error.print() {
+            Ok(()) => Failure::Told(Status::Done),
+            Err(error) => Failure::write("<stdout>", &error),
+        },
+        ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand => {
+            Failure::Usage("a command is missing; see `medial --help`".to_owned())
+        }
+        _ => Failure::Usage(one_line(&error.to_string())),
+    })
+}
+
+/// The message of the parser without its usage lines, as one line.
+fn one_line(text: &str) -> String {
+    let text = text.strip_prefix("error: ").unwrap_or(text);
+    let parts = text
+        .split("\n\n")
+        .map(str::trim)
+        .filter(|part| !part.starts_with("Usage:") && !part.starts_with("For more information"))
+        .map(|part| part.split_whitespace().collect::<Vec<_>>().join(" "));
+    let said = parts.filter(|part| !part.is_empty()).collect::<Vec<_>>().join("; ");
+    format!("{said}; see --help")
+}
+
+fn engine(word: &str) -> Result<Engine, String> {
+    const LATER: [&str; 5] =
+        ["divide_and_conquer", "delaunay_dual", "ridge_following", "brushfire", "raster_transform"];
+    if LATER.contains(&word.replace('-', "_").as_str()) {
+        return Err(format!("this build has no engine {word} yet; use path_tracing"));
+    }
+    word.parse().map_err(|error: medial::axis::UnknownName| error.to_string())
+}
+
+fn side(word: &str) -> Result<Side, String> {
+    if ["exterior", "both"].contains(&word) {
+        return Err("this build computes no exterior axis yet; use interior".to_owned());
+    }
+    word.parse().map_err(|error: medial::axis::UnknownName| error.to_string())
+}
+
+fn extra(word: &str) -> Result<Extra, String> {
+    let found = Extra::NAMES.iter().find(|(name, _)| *name == word);
+    found.map(|(_, extra)| *extra).ok_or_else(|| {
+        let known = Extra::NAMES.map(|(name, _)| name).join(", ");
+        format!("known are {known}")
+    })
+}
+
+fn positive(word: &str) -> Result<f64, String> {
+    match word.parse::<f64>() {
+        Ok(value) if value.is_finite() && value > 0.0 => Ok(value),
+        _ => Err("a positive number is needed".to_owned()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::CommandFactory as _;
+
+    #[test]
+    fn the_arguments_are_consistent() {
+        Cli::command().debug_assert();
+    }
+
+    #[test]
+    fn a_message_of_the_parser_becomes_one_line() {
+        let error = Cli::try_parse_from(["medial", "axis"]).unwrap_err();
+        let told = one_line(&error.to_string());
+        let expected = "the following required arguments were not provided: <INPUT>; see --help";
+        assert_eq!(told, expected);
+    }
+
+    #[test]
+    fn engines_take_hyphens() {
+        assert_eq!(engine("path-tracing"), Ok(Engine::PathTracing));
+        assert!(engine("brushfire").unwrap_err().contains("use path_tracing"));
+    }
+}

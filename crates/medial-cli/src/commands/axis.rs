@@ -1,0 +1,105 @@
+use super::features::{Run, layer};
+use super::sink::{Sink, encode};
+use crate::args::{AxisArgs, Height};
+use crate::failure::{Failure, Status};
+use crate::input::Input;
+use crate::report::Entry;
+use crate::timings::{Stages, timed};
+use medial::axis::{Engine, MedialAxis};
+use medial::domain::Domain;
+use medial::engine::{EngineError, path_tracing};
+use medial_io::svg::Options;
+use medial_io::{Drawing, Format};
+use std::io::IsTerminal as _;
+use std::time::Instant;
+
+/// `medial axis`.
+pub fn run(args: &AxisArgs) -> Result<Status, Failure> {
+    let mut run = Run { common: &args.common, start: Instant::now(), stages: Stages::default() };
+    let format = output_format(args)?;
+    let drawing = Drawing {
+        tolerance: args.tolerance,
+        radius_as_z: args.z == Some(Height::Radius),
+        keypoints: args.keypoints,
+    };
+    let input = timed(&mut run.stages.read, || Input::read(&args.input))?;
+    let layer = timed(&mut run.stages.read, || layer(&input, &args.input, &args.common))?;
+    let picture = Options { title: title(args), draw: args.draw.clone(), ..Options::default() };
+    let mut sink = Sink::create(args.output.as_deref(), format, layer.crs.clone(), picture)?;
+    let mut write = std::time::Duration::ZERO;
+    let status = run.each(
+        &input,
+        layer,
+        |feature, domain, stages| {
+            let axis = timed(&mut stages.engine, || engine(args.engine, domain))
+                .map_err(|error| Entry::refused(code(&error), error.to_string()))?;
+            Ok(timed(&mut stages.write, || encode(format, drawing, feature, domain, axis)))
+        },
+        |chunk| timed(&mut write, || sink.add(chunk)),
+    )?;
+    if status != Status::NoResult {
+        timed(&mut write, || sink.finish())?;
+    }
+    run.stages.write += write;
+    run.finish()?;
+    Ok(status)
+}
+
+fn engine(engine: Engine, domain: &Domain) -> Result<MedialAxis, EngineError> {
+    match engine {
+        Engine::PathTracing => path_tracing(domain),
+        _ => Err(EngineError::Internal {
+            stage: "choosing the engine",
+            place: medial::geom::Point::default(),
+        }),
+    }
+}
+
+fn code(error: &EngineError) -> &'static str {
+    match error {
+        EngineError::TooLarge { .. } => "too_large",
+        _ => "internal",
+    }
+}
+
+/// The format of the output, from `--to`, else the extension, else GeoJSON.
+fn output_format(args: &AxisArgs) -> Result<Format, Failure> {
+    let file = args.output.as_deref().filter(|path| path.as_os_str() != "-");
+    let format = match (args.to, file) {
+        (Some(format), _) => format,
+        (None, None) => Format::GeoJson,
+        (None, Some(path)) => Format::from_path(path).map_err(|_| {
+            let name = path.display();
+            Failure::Usage(format!("{name}: the extension names no format; say it with --to"))
+        })?,
+    };
+    let usage = |why: String| Err(Failure::Usage(why));
+    let picture = matches!(format, Format::Svg | Format::Png);
+    let lines = matches!(format, Format::GeoJson | Format::GeoJsonLines | Format::Wkt);
+    if format == Format::Rings {
+        return usage("rings hold polygons, no axes; see --to in --help".to_owned());
+    }
+    if !args.draw.is_empty() && !picture {
+        return usage(format!("--draw is for svg and png, not for {format}"));
+    }
+    if args.z.is_some() && !lines && format != Format::Csv {
+        return usage(format!("--z is for geojson, geojsonl, wkt and csv, not for {format}"));
+    }
+    if args.keypoints && format == Format::Csv {
+        return usage("--keypoints is not for csv, which has a row for each path".to_owned());
+    }
+    if format == Format::Png && file.is_none() && std::io::stdout().is_terminal() {
+        return usage("a terminal shows no png; name a file with -o".to_owned());
+    }
+    Ok(format)
+}
+
+/// The line above a picture: the name of the input.
+fn title(args: &AxisArgs) -> String {
+    match args.input.file_name() {
+        Some(name) if args.input.as_os_str() != "-" => {
+            format!("Medial axis of {}", name.to_string_lossy())
+        }
+        _ => "Medial axis".to_owned(),
+    }
+}

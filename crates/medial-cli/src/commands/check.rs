@@ -1,0 +1,66 @@
+use super::features::{Run, layer};
+use crate::args::{CheckArgs, Form};
+use crate::failure::{Failure, Status};
+use crate::input::Input;
+use crate::output::Output;
+use crate::timings::{Stages, timed};
+use crate::verdicts::Judged;
+use medial_io::axis_document::{self, AxisDocument};
+use std::collections::BTreeMap;
+use std::time::Instant;
+
+/// `medial check`.
+pub fn run(args: &CheckArgs) -> Result<Status, Failure> {
+    if args.domain.as_os_str() == "-" && args.axis.as_os_str() == "-" {
+        let why = "polygons and axes cannot both come from standard input; name a file";
+        return Err(Failure::Usage(why.to_owned()));
+    }
+    let mut run = Run { common: &args.common, start: Instant::now(), stages: Stages::default() };
+    let (input, axes) =
+        timed(&mut run.stages.read, || Ok((Input::read(&args.domain)?, Input::read(&args.axis)?)))?;
+    let mut documents = timed(&mut run.stages.read, || read_documents(&axes))?;
+    let layer = timed(&mut run.stages.read, || layer(&input, &args.domain, &args.common))?;
+    let mut output = Output::create(args.output.as_deref())?;
+    let mut tell = |judged: &Judged| match args.to {
+        Form::Text => output.write(judged.text().as_bytes()),
+        Form::Json => output.write(judged.json().as_bytes()),
+    };
+    let mut n_defects = 0;
+    let mut seen = Vec::new();
+    let status = run.each(
+        &input,
+        layer,
+        |feature, domain, stages| {
+            let of_feature = documents.get(&feature.index).map_or(&[][..], Vec::as_slice);
+            Ok(timed(&mut stages.operations, || Judged::new(feature, domain, of_feature)))
+        },
+        |judged| {
+            n_defects += judged.defects.len();
+            seen.push(judged.feature);
+            tell(&judged)
+        },
+    )?;
+    for feature in seen {
+        documents.remove(&feature);
+    }
+    for feature in documents.into_keys() {
+        let judged = Judged::without_domain(feature);
+        n_defects += judged.defects.len();
+        tell(&judged)?;
+    }
+    if status != Status::NoResult || n_defects > 0 {
+        output.finish()?;
+    }
+    run.finish()?;
+    Ok(if n_defects > 0 { Status::Defects } else { status })
+}
+
+/// The documents of each feature.
+fn read_documents(input: &Input) -> Result<BTreeMap<usize, Vec<AxisDocument>>, Failure> {
+    let mut documents: BTreeMap<usize, Vec<AxisDocument>> = BTreeMap::new();
+    for document in axis_document::read(input.text()?) {
+        let document = document.map_err(|error| input.wrong(error))?;
+        documents.entry(document.feature).or_default().push(document);
+    }
+    Ok(documents)
+}

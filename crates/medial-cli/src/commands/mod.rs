@@ -1,0 +1,4 @@
+pub mod axis;
+pub mod check;
+mod features;
+mod sink;

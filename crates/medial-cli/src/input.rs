@@ -1,0 +1,64 @@
+use crate::failure::{Failure, plain};
+use medial_io::{Content, Format};
+use std::io::Read as _;
+use std::path::Path;
+
+/// An input, read whole.
+pub struct Input {
+    /// How messages name it.
+    pub name: String,
+    bytes: Vec<u8>,
+}
+
+impl Input {
+    /// Reads a file, or standard input for `-`.
+    pub fn read(path: &Path) -> Result<Self, Failure> {
+        let name = name(path);
+        let bytes = if path.as_os_str() == "-" {
+            let mut bytes = Vec::new();
+            std::io::stdin().lock().read_to_end(&mut bytes).map(|_| bytes)
+        } else {
+            std::fs::read(path)
+        };
+        match bytes {
+            Ok(bytes) => Ok(Self { name, bytes }),
+            Err(error) => Err(Failure::file(&name, format_args!("cannot read: {}", plain(&error)))),
+        }
+    }
+
+    pub fn text(&self) -> Result<&str, Failure> {
+        medial_io::text(&self.bytes).map_err(|error| self.wrong(error))
+    }
+
+    /// The failure that the content is wrong.
+    pub fn wrong(&self, why: impl ToString) -> Failure {
+        Failure::file(&self.name, why)
+    }
+}
+
+fn name(path: &Path) -> String {
+    if path.as_os_str() == "-" { "<stdin>".to_owned() } else { path.display().to_string() }
+}
+
+/// The format of polygons in a text: as asked for, by the extension, else by the content.
+pub fn polygon_format(
+    input: &Input,
+    path: &Path,
+    from: Option<Format>,
+    text: &str,
+) -> Result<Format, Failure> {
+    match from.or_else(|| Format::from_path(path).ok()) {
+        Some(Format::Json) | None => match Format::of_text(text) {
+            Ok(Content::Polygons(format)) => Ok(format),
+            Ok(Content::Axes) => Err(input.wrong("is an axis document; polygons are needed here")),
+            Err(error) => Err(input.wrong(error)),
+        },
+        Some(format @ (Format::Csv | Format::Svg | Format::Png)) => {
+            let why = format!(
+                "the format {format} is written only; polygons come as geojson, geojsonl, wkt or rings"
+            );
+            Err(if from.is_some() { Failure::Usage(why) } else { input.wrong(why) })
+        }
+        Some(format) => Ok(format),
+    }
+}

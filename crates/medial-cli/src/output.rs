@@ -1,0 +1,86 @@
+use crate::failure::{Failure, plain};
+use std::fs;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use tempfile::NamedTempFile;
+
+/// Where results go: standard output, or a file that appears when it is complete.
+pub enum Output {
+    Stream(io::BufWriter<io::Stdout>),
+    /// A pipe or a device, written as it is.
+    Direct(io::BufWriter<fs::File>, String),
+    File {
+        text: io::BufWriter<NamedTempFile>,
+        path: PathBuf,
+    },
+}
+
+impl Output {
+    /// Standard output for `None` and `-`.
+    pub fn create(path: Option<&Path>) -> Result<Self, Failure> {
+        let Some(path) = path.filter(|path| path.as_os_str() != "-") else {
+            return Ok(Self::Stream(io::BufWriter::new(io::stdout())));
+        };
+        let name = path.display().to_string();
+        let failed = |error: io::Error| {
+            Failure::file(&name, format_args!("cannot create: {}", plain(&error)))
+        };
+        // Follow links, so that the file they name is replaced and not the link.
+        let path = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
+        if let Ok(found) = fs::metadata(&path)
+            && !found.is_file()
+        {
+            let file = fs::OpenOptions::new().write(true).open(&path).map_err(failed)?;
+            return Ok(Self::Direct(io::BufWriter::new(file), name));
+        }
+        let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        let mut builder = tempfile::Builder::new();
+        builder.prefix(".medial-");
+        #[cfg(unix)]
+        {
+            use std::os::unix::fs::PermissionsExt as _;
+            // As for any new file: the umask takes off what it should.
+            builder.permissions(fs::Permissions::from_mode(0o666));
+        }
+        let file = builder.tempfile_in(folder).map_err(failed)?;
+        Ok(Self::File { text: io::BufWriter::new(file), path })
+    }
+
+    pub fn write(&mut self, bytes: &[u8]) -> Result<(), Failure> {
+        let result = match self {
+            Self::Stream(out) => out.write_all(bytes),
+            Self::Direct(out, _) => out.write_all(bytes),
+            Self::File { text, .. } => text.write_all(bytes),
+        };
+        result.map_err(|error| Failure::write(&self.name(), &error))
+    }
+
+    /// Flushes, and lets the file appear. Without this call no file appears.
+    pub fn finish(self) -> Result<(), Failure> {
+        let name = self.name();
+        let failed = |error: &io::Error| Failure::write(&name, error);
+        match self {
+            Self::Stream(mut out) => out.flush().map_err(|e| failed(&e)),
+            Self::Direct(mut out, _) => out.flush().map_err(|e| failed(&e)),
+            Self::File { text, path } => {
+                let file = text.into_inner().map_err(|e| failed(e.error()))?;
+                file.persist(&path).map(drop).map_err(|e| failed(&e.error))
+            }
+        }
+    }
+
+    fn name(&self) -> String {
+        match self {
+            Self::Stream(_) => "<stdout>".to_owned(),
+            Self::Direct(_, name) => name.clone(),
+            Self::File { path, .. } => path.display().to_string(),
+        }
+    }
+}
+
+/// Writes a whole file, or none.
+pub fn write_file(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
+    let mut output = Output::create(Some(path))?;
+    output.write(bytes)?;
+    output.finish()
+}

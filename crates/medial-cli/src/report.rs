@@ -1,0 +1,167 @@
+use crate::failure::Failure;
+use crate::output::write_file;
+use medial::domain::{DomainError, Repair, Report as Repairs};
+use medial_io::{Json, Note};
+use serde::Serialize;
+use std::path::Path;
+
+/// What became of all features: the content of a report file.
+#[derive(Default, Serialize)]
+pub struct Report {
+    /// The input, as the user named it.
+    pub input: String,
+    /// Number of features in the input.
+    pub n_features: usize,
+    /// Number of features with a result.
+    pub done: usize,
+    /// Number of features left out.
+    pub left_out: usize,
+    /// The features there is something to say of.
+    pub features: Vec<FeatureReport>,
+}
+
+/// What was done to one feature.
+#[derive(Serialize)]
+pub struct FeatureReport {
+    pub feature: usize,
+    pub id: Option<Json>,
+    pub entries: Vec<Entry>,
+}
+
+/// One thing that was done, with a reason code from a closed list.
+#[derive(Serialize)]
+pub struct Entry {
+    pub action: Action,
+    pub code: &'static str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub polygon: Option<u32>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub ring: Option<u32>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub indices: Vec<u32>,
+    pub message: String,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Action {
+    Repaired,
+    Dropped,
+    Refused,
+}
+
+impl Report {
+    pub fn write(&self, path: &Path) -> Result<(), Failure> {
+        let mut text = serde_json::to_string_pretty(self).unwrap_or_default();
+        text.push('\n');
+        write_file(path, text.as_bytes())
+    }
+}
+
+impl Entry {
+    /// The feature was refused as a whole.
+    pub fn refused(code: &'static str, message: impl Into<String>) -> Self {
+        Self {
+            action: Action::Refused,
+            code,
+            polygon: None,
+            ring: None,
+            indices: Vec::new(),
+            message: message.into(),
+        }
+    }
+
+    /// The feature is no valid domain.
+    pub fn invalid(error: &DomainError) -> Self {
+        Self {
+            polygon: error.polygon(),
+            ring: error.ring(),
+            indices: error.index().into_iter().collect(),
+            ..Self::refused(error.code(), error.to_string())
+        }
+    }
+
+    /// Reading left something out or took it for something else.
+    pub fn noted(note: &Note) -> Self {
+        let action =
+            if note.code == "part_not_polygon" { Action::Dropped } else { Action::Repaired };
+        Self { action, ..Self::refused(note.code, note.text.clone()) }
+    }
+}
+
+/// The entries for all repairs of a domain; `lone` if the feature has one polygon only.
+pub fn repairs(repairs: &Repairs, lone: bool) -> Vec<(bool, Entry)> {
+    let entry = |e: &medial::domain::Entry| {
+        let polygon = if lone { String::new() } else { format!("polygon {}, ", e.polygon) };
+        let entry = Entry {
+            action: action(e.repair),
+            code: e.repair.as_str(),
+            polygon: Some(e.polygon),
+            ring: Some(e.ring),
+            indices: e.indices.clone(),
+            message: format!("{polygon}ring {}{}: {}", e.ring, listed(&e.indices), told(e.repair)),
+        };
+        (e.repair.is_warning(), entry)
+    };
+    repairs.entries().iter().map(entry).collect()
+}
+
+fn action(repair: Repair) -> Action {
+    match repair {
+        Repair::DegenerateHole | Repair::Spike | Repair::Bridge | Repair::RepeatedPoint => {
+            Action::Dropped
+        }
+        _ => Action::Repaired,
+    }
+}
+
+/// What a repair did, in words.
+fn told(repair: Repair) -> String {
+    match repair {
+        Repair::RepeatedPoint => "repeated vertices are dropped",
+        Repair::StraightCorner => "straight corners are merged",
+        Repair::Spike => "spikes are removed",
+        Repair::DegenerateHole => "the hole encloses no area and is dropped",
+        Repair::Reversed => "the ring is turned round",
+        Repair::Regrouped => "the ring is an outer ring or a hole by its depth",
+        Repair::SplitEdge => "edges are split where corners lie on them",
+        Repair::SelfTouch => "the ring passes a point twice",
+        Repair::Bridge => "edges run through both ways are removed",
+        Repair::CutInterior => "touching rings cut the interior",
+        _ => return repair.to_string(),
+    }
+    .to_owned()
+}
+
+/// Most positions a message lists; the report file lists all.
+const LISTED: usize = 5;
+
+fn listed(indices: &[u32]) -> String {
+    if indices.is_empty() {
+        return String::new();
+    }
+    let shown: Vec<String> = indices.iter().take(LISTED).map(u32::to_string).collect();
+    let more = if indices.len() > LISTED { ", …" } else { "" };
+    let noun = if indices.len() == 1 { "vertex" } else { "vertices" };
+    format!(", {noun} {}{more}", shown.join(", "))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn long_lists_are_cut_in_messages() {
+        assert_eq!(listed(&[]), "");
+        assert_eq!(listed(&[4]), ", vertex 4");
+        assert_eq!(listed(&[4, 7]), ", vertices 4, 7");
+        assert_eq!(listed(&[1, 2, 3, 4, 5, 6]), ", vertices 1, 2, 3, 4, 5, …");
+    }
+
+    #[test]
+    fn every_repair_has_words() {
+        for repair in Repair::ALL {
+            assert_ne!(told(repair), repair.to_string());
+        }
+    }
+}

@@ -1,0 +1,113 @@
+//! A disk in doubles with a bound on its error, which answers all questions but near ties.
+
+use std::cmp::Ordering;
+
+use super::Element;
+use super::homogeneous::{Homogeneous, Radius};
+use super::rough::Rough;
+use super::tower::Surd;
+use crate::geom::Point;
+
+/// Half an ulp of 1.
+const U: f64 = f64::EPSILON / 2.0;
+
+/// Rounding of a product of two sums of two differences, relative to the sizes of its terms.
+///
+/// Two differences and a product make 3 or 4 half ulps, the sum of the terms one more; twice that covers
+/// the higher orders.
+const ROUNDING: f64 = 10.0 * U;
+
+/// More than the length of a vector whose square underflows, and far below any length between doubles
+/// with exponents of at most 200 in magnitude.
+const SHORT: f64 = f64::from_bits((1023 - 480) << 52);
+
+/// A disk, each of its numbers within `error`.
+///
+/// An infinite error, or one that is not a number, leaves every question open.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Near {
+    origin: Point,
+    /// Relative to the origin.
+    centre: Point,
+    radius: f64,
+    error: f64,
+}
+
+impl Near {
+    pub(super) fn new(disk: &Homogeneous) -> Self {
+        let rough = |number: &Surd| Rough::scaled(number.coefficients(), disk.tower.roots());
+        let root = |n| Rough::scaled(std::slice::from_ref(n), &[]).root();
+        let w = rough(&disk.w);
+        let quotient = |number| rough(number).quotient(w);
+        let radius = match &disk.radius {
+            Radius::Over { part, n } => quotient(part).quotient(root(n)),
+            Radius::Times { part, n } => quotient(part).product(root(n)),
+        };
+        let [x, y, r] = [quotient(&disk.x), quotient(&disk.y), radius]
+            .map(|number| number.times_power(disk.grid.unit));
+        Self {
+            origin: disk.grid.origin,
+            centre: Point::new(x.value, y.value),
+            radius: r.value,
+            // The largest of the three would hide one that is not a number.
+            error: x.error + y.error + r.error,
+        }
+    }
+
+    /// The centre relative to a point, and a bound on the error of its coordinates.
+    fn centre_from(&self, p: Point) -> (Point, f64) {
+        let local = p - self.origin;
+        let size = local.x.abs() + local.y.abs() + self.centre.x.abs() + self.centre.y.abs();
+        (self.centre - local, self.error + 2.0 * U * size)
+    }
+
+    /// The sign of `v·(c - p)` for the difference `v` of two points.
+    pub(super) fn product(&self, v: Point, p: Point) -> Option<Ordering> {
+        let (c, error) = self.centre_from(p);
+        let sizes = (v.x.abs() + v.y.abs(), (v.x * c.x).abs() + (v.y * c.y).abs());
+        sign(v.dot(c), 2.0 * sizes.0 * error + ROUNDING * sizes.1)
+    }
+
+    /// The sign of `v·(c - c')` for the centre `c'` of another disk.
+    pub(super) fn difference(&self, other: &Self, v: Point) -> Option<Ordering> {
+        let (c, error) = self.centre_from(other.origin);
+        let size = c.x.abs() + c.y.abs() + other.centre.x.abs() + other.centre.y.abs();
+        let (c, error) = (c - other.centre, error + other.error + 2.0 * U * size);
+        let sizes = (v.x.abs() + v.y.abs(), (v.x * c.x).abs() + (v.y * c.y).abs());
+        sign(v.dot(c), 2.0 * sizes.0 * error + ROUNDING * sizes.1)
+    }
+
+    /// The sign of the distance of an element less the radius.
+    pub(super) fn side(&self, element: Element) -> Option<Ordering> {
+        let (distance, error) = match element {
+            Element::Corner(p) => {
+                let (c, error) = self.centre_from(p);
+                (c.norm(), error)
+            }
+            Element::Edge(a, b) => {
+                let (c, error) = self.centre_from(a);
+                let d = b - a;
+                let length = d.norm();
+                let size = (d.x * c.y).abs() + (d.y * c.x).abs();
+                (d.cross(c) / length, error + ROUNDING * size / length)
+            }
+        };
+        // The error of a distance is at most √2 times that of a coordinate.
+        let bound = 3.0 * error + self.error + ROUNDING * (distance.abs() + self.radius) + SHORT;
+        sign(distance - self.radius, bound)
+    }
+}
+
+/// The sign of a value if it is larger than its error.
+///
+/// The smallest normal number covers what underflows.
+fn sign(value: f64, error: f64) -> Option<Ordering> {
+    let error = error + f64::MIN_POSITIVE;
+    if value > error {
+        Some(Ordering::Greater)
+    } else if value < -error {
+        Some(Ordering::Less)
+    } else {
+        None
+    }
+}

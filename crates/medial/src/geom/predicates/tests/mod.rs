@@ -1,0 +1,8 @@
+//! The exact decisions against independent arithmetic and against shapes with known answers.
+
+mod agreement;
+mod circle;
+mod consistency;
+mod random;
+mod reference;
+mod stages;

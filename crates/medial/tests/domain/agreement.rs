@@ -1,0 +1,386 @@
+//! Thousands of tiny polygons against the definitions, and against each other in other positions.
+
+use medial::domain::{Corner, Domain, DomainError, Options};
+use medial::geom::Point;
+
+use crate::brute::{overlap, verdict};
+use crate::shapes::{REGROUP, Rings};
+
+pub struct Random(pub u64);
+
+impl Random {
+    pub fn below(&mut self, n: usize) -> usize {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 7;
+        self.0 ^= self.0 << 17;
+        (self.0 >> 16) as usize % n
+    }
+}
+
+fn build(rings: &Rings) -> Result<Domain, DomainError> {
+    Domain::from_polygons(std::slice::from_ref(rings), &Options::default())
+}
+
+fn random_ring(random: &mut Random, size: usize, len: usize) -> Vec<Point> {
+    let mut point = || Point::new(random.below(size) as f64, random.below(size) as f64);
+    (0..len).map(|_| point()).collect()
+}
+
+/// A ring that goes from a random corner to the next by steps of the grid.
+fn random_walk(random: &mut Random, size: i64, len: usize) -> Vec<Point> {
+    let mut at = (random.below(size as usize) as i64, random.below(size as usize) as i64);
+    let start = at;
+    let mut ring = Vec::new();
+    for _ in 0..len {
+        ring.push(Point::new(at.0 as f64, at.1 as f64));
+        let (dx, dy) = [(1, 0), (0, 1), (-1, 0), (0, -1)][random.below(4)];
+        at = ((at.0 + dx).clamp(0, size), (at.1 + dy).clamp(0, size));
+    }
+    while at != start {
+        ring.push(Point::new(at.0 as f64, at.1 as f64));
+        if at.0 != start.0 {
+            at.0 += (start.0 - at.0).signum();
+        } else {
+            at.1 += (start.1 - at.1).signum();
+        }
+    }
+    ring
+}
+
+/// Checks one polygon against the definitions; says whether it was accepted, and with bridges.
+fn agrees(rings: &Rings) -> (bool, bool) {
+    let expected = verdict(rings);
+    let result = build(rings);
+    if expected.doubtful {
+        return (false, false);
+    }
+    match &result {
+        Ok(domain) => {
+            assert!(expected.accepted(), "accepted {rings:?}: {expected:?}");
+            assert_eq!(domain.edges().len(), expected.pieces, "{rings:?}");
+            assert_eq!(domain.area() * 2.0, expected.twice_area as f64, "{rings:?}");
+            turns_once(domain);
+        }
+        Err(error) => {
+            assert!(!expected.accepted(), "refused {rings:?}: {error}");
+            let code = error.code();
+            let right = if expected.degenerate {
+                code == "collinear" || code == "too_few_points"
+            } else if expected.crossing || expected.overlap {
+                expected.crossing && code == "crossing" || expected.overlap && code == "overlap"
+            } else if expected.wrong_side {
+                code == "crossing" || code == "bad_nesting"
+            } else {
+                code == "empty"
+            };
+            assert!(right, "{rings:?}: {error}, but {expected:?}");
+        }
+    }
+    (result.is_ok(), result.is_ok() && expected.bridges > 0)
+}
+
+/// An outer walk turns left by one full turn in all, one around a hole turns right.
+fn turns_once(domain: &Domain) {
+    for walk in domain.walks() {
+        let range = walk.first..walk.first + walk.len;
+        let turn: f64 = range
+            .map(|k| {
+                let edge = domain.edge(k);
+                let (u, v) = (domain.edge(edge.prev).direction, edge.direction);
+                let angle = u.cross(v).atan2(u.dot(v));
+                assert_eq!(angle > 1e-9, edge.corner == Corner::Convex);
+                assert_eq!(angle < -1e-9, edge.corner == Corner::Reflex);
+                angle
+            })
+            .sum();
+        let turns = turn / std::f64::consts::TAU;
+        assert!((turns - if walk.hole { -1.0 } else { 1.0 }).abs() < 1e-9);
+    }
+}
+
+#[test]
+fn random_rings_with_holes_agree_with_the_definitions() {
+    let mut random = Random(1);
+    let mut accepted = 0;
+    for _ in 0..60_000 {
+        let size = 3 + random.below(4);
+        let len = 3 + random.below(6);
+        let mut rings = vec![random_ring(&mut random, size, len)];
+        for _ in 0..random.below(3) {
+            let len = 3 + random.below(3);
+            rings.push(random_ring(&mut random, size, len));
+        }
+        accepted += usize::from(agrees(&rings).0);
+    }
+    assert!(accepted > 5_000, "{accepted}");
+}
+
+#[test]
+fn random_holes_in_a_square_agree_with_the_definitions() {
+    let mut random = Random(2);
+    let mut accepted = 0;
+    for _ in 0..60_000 {
+        let size = 4 + random.below(3);
+        let side = (size - 1) as f64;
+        let corners = [(0.0, 0.0), (side, 0.0), (side, side), (0.0, side)];
+        let mut rings = vec![corners.map(|(x, y)| Point::new(x, y)).to_vec()];
+        for _ in 0..1 + random.below(3) {
+            let len = 3 + random.below(3);
+            rings.push(random_ring(&mut random, size, len));
+        }
+        accepted += usize::from(agrees(&rings).0);
+    }
+    assert!(accepted > 5_000, "{accepted}");
+}
+
+#[test]
+fn random_walks_on_the_grid_agree_with_the_definitions() {
+    let mut random = Random(3);
+    let (mut accepted, mut bridged) = (0, 0);
+    for _ in 0..100_000 {
+        let size = 2 + random.below(3) as i64;
+        let len = 3 + random.below(12);
+        let mut rings = vec![random_walk(&mut random, size, len)];
+        if random.below(2) == 0 {
+            let len = 4 + random.below(4);
+            rings.push(random_walk(&mut random, size, len));
+        }
+        let (ok, with_bridges) = agrees(&rings);
+        accepted += usize::from(ok);
+        bridged += usize::from(with_bridges);
+    }
+    assert!(accepted > 5_000 && bridged > 200, "{accepted} {bridged}");
+}
+
+#[test]
+fn pairs_of_polygons_agree_with_the_definitions() {
+    let mut random = Random(6);
+    let (mut disjoint, mut overlapping) = (0, 0);
+    while disjoint < 4_000 {
+        let polygons: [Rings; 2] = [(); 2].map(|()| {
+            let len = 4 + random.below(6);
+            if random.below(2) == 0 {
+                vec![random_walk(&mut random, 4, len)]
+            } else {
+                let mut rings = vec![random_ring(&mut random, 5, 3 + len % 3)];
+                rings.extend((0..random.below(2)).map(|_| random_ring(&mut random, 5, 3)));
+                rings
+            }
+        });
+        if polygons.iter().any(|p| build(p).is_err()) {
+            continue;
+        }
+        match Domain::from_polygons(&polygons, &Options::default()) {
+            Ok(domain) => {
+                assert!(!overlap(&polygons[0], &polygons[1]), "{polygons:?}");
+                let alone = polygons.each_ref().map(|p| build(p).map_or(0.0, |d| d.area()));
+                assert_eq!(domain.area(), alone[0] + alone[1]);
+                disjoint += 1;
+            }
+            Err(error) => {
+                assert!(overlap(&polygons[0], &polygons[1]), "{polygons:?}: {error}");
+                assert_eq!(error.code(), "polygons_overlap");
+                overlapping += 1;
+            }
+        }
+    }
+    assert!(overlapping > 1_000, "{overlapping}");
+}
+
+/// Walks as closed lists of points, from the smallest one on, in order.
+fn cycles(domain: &Domain, place: impl Fn(Point) -> Point) -> Vec<Vec<(f64, f64)>> {
+    let cycle = |w: &medial::domain::Walk| {
+        let edges = &domain.edges()[w.first as usize..(w.first + w.len) as usize];
+        let points: Vec<(f64, f64)> =
+            edges.iter().map(|e| place(e.start)).map(|p| (p.x + 0.0, p.y + 0.0)).collect();
+        let turned = |k: usize| [&points[k..], &points[..k]].concat();
+        let all = (0..points.len()).map(turned);
+        all.min_by(|a, b| a.partial_cmp(b).expect("finite")).unwrap_or_default()
+    };
+    let mut all: Vec<_> = domain.walks().iter().map(cycle).collect();
+    all.sort_by(|a, b| a.partial_cmp(b).expect("finite"));
+    all
+}
+
+#[test]
+fn the_walks_do_not_depend_on_position_or_order() {
+    let mut random = Random(4);
+    let mut accepted = 0;
+    for _ in 0..20_000 {
+        let mut rings = vec![random_walk(&mut random, 4, 14)];
+        for _ in 0..random.below(3) {
+            let len = 3 + random.below(2);
+            rings.push(random_ring(&mut random, 5, len));
+        }
+        let result = build(&rings);
+        // A quarter turn, a scale and a shift, all exact; another start, direction and order.
+        let turn = |p: Point| Point::new(-p.y * 0.25 + 1024.0, p.x * 0.25 - 3.0);
+        let back = |p: Point| Point::new((p.y + 3.0) * 4.0, (1024.0 - p.x) * 4.0);
+        let mut moved: Rings = rings.iter().map(|r| r.iter().map(|&p| turn(p)).collect()).collect();
+        for ring in &mut moved {
+            let by = random.below(ring.len());
+            ring.rotate_left(by);
+            if random.below(2) == 0 {
+                ring.reverse();
+            }
+        }
+        moved[1..].reverse();
+        let other = build(&moved);
+        match (&result, &other) {
+            (Ok(one), Ok(two)) => {
+                accepted += 1;
+                assert_eq!(cycles(one, |p| p), cycles(two, back), "{rings:?}");
+                assert_eq!(one.n_components(), two.n_components());
+            }
+            (Err(_), Err(_)) => {}
+            _ => panic!("{rings:?}: {result:?} {other:?}"),
+        }
+    }
+    assert!(accepted > 1_000, "{accepted}");
+}
+
+/// Unit squares of a grid; everything outside is false.
+struct Mask {
+    size: i64,
+    cells: Vec<bool>,
+}
+
+impl Mask {
+    fn at(&self, x: i64, y: i64) -> bool {
+        let within = 0..self.size;
+        within.contains(&x) && within.contains(&y) && self.cells[(y * self.size + x) as usize]
+    }
+
+    /// Rings along its border, with the mask on the left, turning at random where they touch.
+    fn rings(&self, random: &mut Random) -> Rings {
+        const STEPS: [(i64, i64); 4] = [(1, 0), (0, 1), (-1, 0), (0, -1)];
+        let border = |x: i64, y: i64, d: usize| {
+            // Cells to the left and right of the unit step from (x, y).
+            let (left, right) = match d {
+                0 => ((x, y), (x, y - 1)),
+                1 => ((x - 1, y), (x, y)),
+                2 => ((x - 1, y - 1), (x - 1, y)),
+                _ => ((x, y - 1), (x - 1, y - 1)),
+            };
+            self.at(left.0, left.1) && !self.at(right.0, right.1)
+        };
+        let mut left: Vec<(i64, i64, usize)> = Vec::new();
+        for x in 0..=self.size {
+            for y in 0..=self.size {
+                left.extend((0..4).filter(|&d| border(x, y, d)).map(|d| (x, y, d)));
+            }
+        }
+        let mut rings = Rings::new();
+        while let Some(&start) = left.first() {
+            let mut ring = Vec::new();
+            let (mut x, mut y, mut d) = start;
+            loop {
+                left.retain(|&s| s != (x, y, d));
+                ring.push(Point::new(x as f64, y as f64));
+                (x, y) = (x + STEPS[d].0, y + STEPS[d].1);
+                let open: Vec<_> = left.iter().filter(|s| (s.0, s.1) == (x, y)).collect();
+                match open.len() {
+                    0 => break,
+                    n => d = open[random.below(n)].2,
+                }
+            }
+            rings.push(ring);
+        }
+        rings
+    }
+
+    /// Number of regions of cells equal to `value`, joined by sides or also by corners, that
+    /// `within` holds; the outside counts as a margin of false cells.
+    fn regions(&self, value: bool, corners: bool, within: impl Fn(i64, i64) -> bool) -> usize {
+        let mut seen = std::collections::BTreeSet::new();
+        let mut count = 0;
+        let range = -1..=self.size;
+        for x in range.clone() {
+            for y in range.clone() {
+                let good = |x: i64, y: i64| {
+                    range.contains(&x) && range.contains(&y) && within(x, y) == value
+                };
+                if !good(x, y) || !seen.insert((x, y)) {
+                    continue;
+                }
+                count += 1;
+                let mut stack = vec![(x, y)];
+                while let Some((x, y)) = stack.pop() {
+                    for (dx, dy) in
+                        [(1, 0), (0, 1), (-1, 0), (0, -1), (1, 1), (1, -1), (-1, 1), (-1, -1)]
+                    {
+                        let next = (x + dx, y + dy);
+                        let side = dx == 0 || dy == 0;
+                        if (side || corners) && good(next.0, next.1) && seen.insert(next) {
+                            stack.push(next);
+                        }
+                    }
+                }
+            }
+        }
+        count
+    }
+}
+
+#[test]
+fn components_and_walks_of_masks_are_those_of_their_cells() {
+    let mut random = Random(5);
+    let mut accepted = 0;
+    for _ in 0..3_000 {
+        let size = 2 + random.below(5) as i64;
+        let density = 1 + random.below(4);
+        let cells = (0..size * size).map(|_| random.below(5) < density).collect();
+        let mask = Mask { size, cells };
+        let rings = mask.rings(&mut random);
+        let full = mask.cells.iter().filter(|&&c| c).count();
+        if full == 0 {
+            continue;
+        }
+        let polygons = [rings];
+        let Ok(domain) = Domain::from_polygons(&polygons, &REGROUP) else {
+            // Random turns can make rings that cross themselves or each other at corners.
+            continue;
+        };
+        accepted += 1;
+        assert_eq!(domain.area(), full as f64);
+        let components = mask.regions(true, false, |x, y| mask.at(x, y));
+        assert_eq!(domain.n_components(), components, "{polygons:?}");
+        turns_once(&domain);
+        // Walks of a component: regions of its complement, which corners join.
+        let mut walks = 0;
+        for start in component_starts(&mask) {
+            let cells = component(&mask, start);
+            walks += mask.regions(false, true, |x, y| cells.contains(&(x, y)));
+        }
+        assert_eq!(domain.walks().len(), walks, "{polygons:?}");
+    }
+    assert!(accepted > 1_500, "{accepted}");
+}
+
+fn component(mask: &Mask, start: (i64, i64)) -> std::collections::BTreeSet<(i64, i64)> {
+    let mut cells = std::collections::BTreeSet::from([start]);
+    let mut stack = vec![start];
+    while let Some((x, y)) = stack.pop() {
+        for (dx, dy) in [(1, 0), (0, 1), (-1, 0), (0, -1)] {
+            let next = (x + dx, y + dy);
+            if mask.at(next.0, next.1) && cells.insert(next) {
+                stack.push(next);
+            }
+        }
+    }
+    cells
+}
+
+fn component_starts(mask: &Mask) -> Vec<(i64, i64)> {
+    let mut seen = std::collections::BTreeSet::new();
+    let mut starts = Vec::new();
+    for x in 0..mask.size {
+        for y in 0..mask.size {
+            if mask.at(x, y) && !seen.contains(&(x, y)) {
+                starts.push((x, y));
+                seen.extend(component(mask, (x, y)));
+            }
+        }
+    }
+    starts
+}

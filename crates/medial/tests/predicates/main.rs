@@ -1,8 +1,0 @@
-//! The exact decisions, against independent arithmetic and against shapes with known answers.
-
-mod agreement;
-mod circle;
-mod consistency;
-mod random;
-mod reference;
-mod stages;
