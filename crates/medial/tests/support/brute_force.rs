@@ -133,7 +133,11 @@ fn disks(domain: &Domain) -> Result<Vec<Found>, String> {
     let mut found: BTreeMap<Vec<Site>, Found> = BTreeMap::new();
     for (i, &a) in all.iter().enumerate() {
         for (j, &b) in all.iter().enumerate().skip(i + 1) {
-            for &c in &all[j + 1..] {
+            if !may_share(domain, a, b) {
+                continue;
+            }
+            let third = all[j + 1..].iter().copied();
+            for c in third.filter(|&c| may_share(domain, a, c) && may_share(domain, b, c)) {
                 for triple in [[a, b, c], [a, c, b]] {
                     if clearly_cut(domain, triple) {
                         continue;
@@ -151,6 +155,19 @@ fn disks(domain: &Domain) -> Result<Vec<Found>, String> {
         }
     }
     Ok(found.into_values().collect())
+}
+
+/// Whether a disk may touch both: no edge has the other element behind its line.
+fn may_share(domain: &Domain, a: Site, b: Site) -> bool {
+    let ends = |site: Site| {
+        let edge = domain.edge(site.index());
+        [edge.start, if site.is_edge() { domain.end(site.index()) } else { edge.start }]
+    };
+    let in_front = |edge: Site, other: Site| {
+        let [start, end] = ends(edge);
+        !edge.is_edge() || ends(other).iter().any(|&p| orient2d(start, end, p) >= 0.0)
+    };
+    in_front(a, b) && in_front(b, a)
 }
 
 /// Whether doubles prove that an edge lies inside the disk; saves most of the exact arithmetic.
