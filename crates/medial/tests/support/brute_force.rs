@@ -7,21 +7,18 @@ use medial::axis::{
     Accuracy, Engine, KeypointKind, MedialAxis, Path, Side, Site as AxisSite, SiteKind,
 };
 use medial::domain::{Corner, Domain, Site};
-use medial::geom::Point;
 use medial::geom::predicates::{Element, ExactDisk};
+use medial::geom::{Point, TouchingDisk, cross_directions, orient2d};
 
 /// A site nearer than this share of the box's size below the radius is surely inside a disk.
 ///
 /// Rounded disks are right to an ulp, so this only saves exact arithmetic.
 const CLEARLY: f64 = 1e-9;
 
-/// Contacts are told apart by their angle in doubles; closer ones would need exact numbers.
-const LEAST_ANGLE: f64 = 1e-10;
-
 /// The medial axis of a small domain, from the disks of all triples of sites.
 ///
 /// # Panics
-/// If two contacts of a disk are too close to be sorted in doubles, or the paths do not match up.
+/// If the paths do not match up.
 pub fn axis(domain: &Domain) -> MedialAxis {
     try_axis(domain).unwrap_or_else(|e| panic!("{e}"))
 }
@@ -136,8 +133,15 @@ fn disks(domain: &Domain) -> Result<Vec<Found>, String> {
     let mut found: BTreeMap<Vec<Site>, Found> = BTreeMap::new();
     for (i, &a) in all.iter().enumerate() {
         for (j, &b) in all.iter().enumerate().skip(i + 1) {
-            for &c in &all[j + 1..] {
+            if !may_share(domain, a, b) {
+                continue;
+            }
+            let third = all[j + 1..].iter().copied();
+            for c in third.filter(|&c| may_share(domain, a, c) && may_share(domain, b, c)) {
                 for triple in [[a, b, c], [a, c, b]] {
+                    if clearly_cut(domain, triple) {
+                        continue;
+                    }
                     let Some(disk) = ExactDisk::new(triple.map(|s| element(domain, s))) else {
                         continue;
                     };
@@ -151,6 +155,33 @@ fn disks(domain: &Domain) -> Result<Vec<Found>, String> {
         }
     }
     Ok(found.into_values().collect())
+}
+
+/// Whether a disk may touch both: no edge has the other element behind its line.
+fn may_share(domain: &Domain, a: Site, b: Site) -> bool {
+    let ends = |site: Site| {
+        let edge = domain.edge(site.index());
+        [edge.start, if site.is_edge() { domain.end(site.index()) } else { edge.start }]
+    };
+    let in_front = |edge: Site, other: Site| {
+        let [start, end] = ends(edge);
+        !edge.is_edge() || ends(other).iter().any(|&p| orient2d(start, end, p) >= 0.0)
+    };
+    in_front(a, b) && in_front(b, a)
+}
+
+/// Whether doubles prove that an edge lies inside the disk; saves most of the exact arithmetic.
+fn clearly_cut(domain: &Domain, three: [Site; 3]) -> bool {
+    let governors = three.map(|site| domain.governor(site));
+    let near = domain.edge(three[0].index()).start;
+    let Some(disk) = TouchingDisk::guess(&governors, near).and_then(|d| d.certified(&governors))
+    else {
+        return false;
+    };
+    let (centre, radius) = (disk.position(), disk.radius);
+    let scale = centre.x.abs() + centre.y.abs() + radius;
+    let inside = radius - disk.bound - CLEARLY * scale;
+    (0..domain.edges().len() as u32).any(|edge| closed_distance(domain, centre, edge) < inside)
 }
 
 /// Everything a disk touches, if nothing cuts it.
@@ -219,32 +250,19 @@ fn in_zone(domain: &Domain, disk: &ExactDisk, site: Site) -> bool {
 /// Sorts what a disk touches; `None` if there are fewer than two contacts, or nothing changes.
 fn keypoint(domain: &Domain, disk: ExactDisk, touched: &[Site]) -> Result<Option<Found>, String> {
     let (centre, radius) = disk.approximate();
-    let mut angles: Vec<(f64, Site)> = touched
-        .iter()
-        .map(|&site| {
-            let edge = domain.edge(site.index());
-            let towards = if site.is_edge() { -edge.direction.perp() } else { edge.start - centre };
-            (towards.y.atan2(towards.x), site)
-        })
-        .collect();
-    angles.sort_by(|a, b| a.0.total_cmp(&b.0));
-    // Group equal contacts; start where a new one begins.
-    let n = angles.len();
-    let step = |k: usize| {
-        let (a, b) = (angles[k].0, angles[(k + 1) % n].0);
-        (b - a).rem_euclid(std::f64::consts::TAU)
+    let Some(&first) = touched.first() else { return Ok(None) };
+    // Counterclockwise, from the first one on.
+    let order = |a: Site, b: Site| {
+        let part = |site| quarter(domain, &disk, first, site);
+        part(a).cmp(&part(b)).then_with(|| turn(domain, &disk, a, b).reverse())
     };
-    let close = |k: usize| {
-        let step = step(k);
-        step.min(std::f64::consts::TAU - step) < LEAST_ANGLE
-    };
-    let Some(start) = (0..n).find(|&k| !close((k + n - 1) % n)) else { return Ok(None) };
+    let mut sorted = touched.to_vec();
+    sorted.sort_by(|&a, &b| order(a, b));
     let mut runs: Vec<Vec<Site>> = Vec::new();
-    for k in 0..n {
-        let k = (start + k) % n;
+    for (k, &here) in sorted.iter().enumerate() {
         match runs.last_mut() {
-            Some(run) if close((k + n - 1) % n) => run.push(angles[k].1),
-            _ => runs.push(vec![angles[k].1]),
+            Some(run) if order(sorted[k - 1], here).is_eq() => run.push(here),
+            _ => runs.push(vec![here]),
         }
     }
     for run in &mut runs {
@@ -255,10 +273,48 @@ fn keypoint(domain: &Domain, disk: ExactDisk, touched: &[Site]) -> Result<Option
     if runs.len() < 2 || list.len() < 3 {
         return Ok(None);
     }
+    runs.retain(|run| !run.is_empty());
     let contacts = runs.iter().map(|run| (run[0], run[run.len() - 1])).collect();
     let least = (0..list.len()).min_by_key(|&k| list[k]).unwrap_or(0);
     list.rotate_left(least);
     Ok(Some(Found { centre, radius, disk: Some(disk), list, contacts }))
+}
+
+/// 0 if both contacts are one, and then 1, 2, 3 for less than half a turn counterclockwise from
+/// `a` to `b`, half a turn, and more.
+fn quarter(domain: &Domain, disk: &ExactDisk, a: Site, b: Site) -> u8 {
+    let ends = |site: Site| (domain.edge(site.index()).start, domain.end(site.index()));
+    let ((p, p_end), (q, q_end)) = (ends(a), ends(b));
+    match turn(domain, disk, a, b) {
+        Ordering::Greater => 1,
+        Ordering::Less => 3,
+        Ordering::Equal => {
+            let one = match (a.is_edge(), b.is_edge()) {
+                (true, true) => (p_end - p).dot(q_end - q) > 0.0,
+                (true, false) => orient2d(p, p_end, q) == 0.0,
+                (false, true) => orient2d(q, q_end, p) == 0.0,
+                (false, false) => p == q,
+            };
+            if one { 0 } else { 2 }
+        }
+    }
+}
+
+/// `Greater` if from the centre the contact with `b` lies counterclockwise of that with `a` by less
+/// than half a turn.
+fn turn(domain: &Domain, disk: &ExactDisk, a: Site, b: Site) -> Ordering {
+    let ends = |site: Site| (domain.edge(site.index()).start, domain.end(site.index()));
+    let ((p, p_end), (q, q_end)) = (ends(a), ends(b));
+    match (a.is_edge(), b.is_edge()) {
+        (true, true) => {
+            let turn = cross_directions(p, p_end, q, q_end);
+            turn.partial_cmp(&0.0).unwrap_or(Ordering::Equal)
+        }
+        // A contact with an edge is found from the centre by a right turn from its direction.
+        (true, false) => disk.along(p, p_end, q).reverse(),
+        (false, true) => disk.along(q, q_end, p),
+        (false, false) => disk.orientation(p, q),
+    }
 }
 
 /// Puts the governors with one contact in boundary order.

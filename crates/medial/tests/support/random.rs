@@ -49,18 +49,130 @@ impl Ground {
     }
 }
 
-/// A polygon with at most `most` edges, now and then with holes; it may be invalid, and rings may
-/// touch themselves and one another.
-pub fn polygon(random: &mut Random, ground: Ground, most: u64) -> Polygons {
-    let outer = 3 + random.below(most - 2);
-    let mut rings = vec![ring(random, ground, outer)];
-    let mut left = most - outer;
-    while left >= 3 && random.below(4) > 0 {
-        let n = 3 + random.below(left.min(5) - 2);
-        left -= n;
-        rings.push(hole(random, ground, n));
+/// Ways to make shapes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Family {
+    /// One ring, untangled, sometimes with small holes.
+    Tangle,
+    /// A large triangle or box full of small holes.
+    Holes,
+    /// Some triangles of a lattice of split squares: touches, straight joints, several parts.
+    Triangles,
+    /// Some squares of a lattice.
+    Squares,
+}
+
+/// A random shape of a family with few edges; it may be invalid.
+///
+/// Rings may touch themselves and one another, so they are to be regrouped by their depth.
+pub fn shape(random: &mut Random, family: Family, ground: Ground) -> Polygons {
+    match family {
+        Family::Tangle => {
+            let outer = 3 + random.below(12);
+            let mut rings = vec![ring(random, ground, outer)];
+            let mut left = 14 - outer;
+            while left >= 3 && random.below(3) > 0 {
+                let n = 3 + random.below(left.min(5) - 2);
+                left -= n;
+                rings.push(hole(random, ground, n));
+            }
+            vec![rings]
+        }
+        Family::Holes => {
+            let (corner, size) = match ground {
+                Ground::Grid(size) => (Point::new(0.0, 0.0), size as f64),
+                Ground::Square => (Point::new(-0.2, -0.3), 1.6),
+            };
+            let at = |x: f64, y: f64| corner + Point::new(x, y) * size;
+            let mut outer = vec![at(0.0, 0.0), at(1.0, 0.0), at(1.0, 1.0), at(0.0, 1.0)];
+            if random.below(2) == 0 {
+                outer.remove(random.below(4) as usize);
+            }
+            let n = 1 + random.below(3);
+            let mut rings = vec![outer];
+            for _ in 0..n {
+                let corners = 3 + random.below(2);
+                rings.push(hole(random, ground, corners));
+            }
+            vec![rings]
+        }
+        Family::Triangles => vec![lattice(random, 3, true)],
+        Family::Squares => vec![lattice(random, 4, false)],
     }
-    vec![rings]
+}
+
+/// The boundary of some cells of a square lattice, each split in two if `split`.
+fn lattice(random: &mut Random, size: i32, split: bool) -> Vec<Vec<Point>> {
+    let mut edges: Vec<[(i32, i32); 2]> = Vec::new();
+    let mut add = |random: &mut Random, cell: &[(i32, i32)]| {
+        if random.below(20) < 9 {
+            return;
+        }
+        for k in 0..cell.len() {
+            let (a, b) = (cell[k], cell[(k + 1) % cell.len()]);
+            match edges.iter().position(|&edge| edge == [b, a]) {
+                Some(twin) => drop(edges.swap_remove(twin)),
+                None => edges.push([a, b]),
+            }
+        }
+    };
+    for x in 0..size {
+        for y in 0..size {
+            let [a, b, c, d] = [(x, y), (x + 1, y), (x + 1, y + 1), (x, y + 1)];
+            match (split, random.below(2)) {
+                (false, _) => add(random, &[a, b, c, d]),
+                (true, 0) => {
+                    add(random, &[a, b, c]);
+                    add(random, &[a, c, d]);
+                }
+                (true, _) => {
+                    add(random, &[a, b, d]);
+                    add(random, &[b, c, d]);
+                }
+            }
+        }
+    }
+    let mut rings = Vec::new();
+    while let Some([start, mut at]) = edges.pop() {
+        let mut ring = vec![start];
+        while at != start {
+            ring.push(at);
+            let next = edges.iter().position(|edge| edge[0] == at).expect("the boundary closes");
+            at = edges.swap_remove(next)[1];
+        }
+        rings.push(ring.into_iter().map(|(x, y)| Point::new(x.into(), y.into())).collect());
+    }
+    rings
+}
+
+/// The same shape turned and scaled by small whole numbers and moved far, all without rounding.
+///
+/// Only for corners that are small whole numbers.
+pub fn carried(random: &mut Random, polygons: &Polygons) -> Polygons {
+    let (a, b) = (1.0 + random.below(3) as f64, random.below(7) as f64 - 3.0);
+    let far = [0.0, 0.0, 1e7, -123_456_789.0][random.below(4) as usize];
+    moved(polygons, |p| Point::new(a * p.x - b * p.y + far, b * p.x + a * p.y - far))
+}
+
+/// The same shape with one coordinate of one corner, or of all corners there, changed by the
+/// smallest amount.
+pub fn off_by_a_hair(random: &mut Random, polygons: &Polygons) -> Polygons {
+    let corners: Vec<Point> = polygons.iter().flatten().flatten().copied().collect();
+    let Some(&chosen) = corners.get(random.below(corners.len().max(1) as u64) as usize) else {
+        return polygons.clone();
+    };
+    let (along_x, up) = (random.below(2) == 0, random.below(2) == 0);
+    let step = |v: f64| if up { v.next_up() } else { v.next_down() };
+    moved(polygons, |p| match p == chosen {
+        true if along_x => Point::new(step(p.x), p.y),
+        true => Point::new(p.x, step(p.y)),
+        false => p,
+    })
+}
+
+fn moved(polygons: &Polygons, by: impl Fn(Point) -> Point) -> Polygons {
+    let ring = |ring: &Vec<Point>| ring.iter().map(|&p| by(p)).collect();
+    polygons.iter().map(|rings| rings.iter().map(ring).collect()).collect()
 }
 
 /// A random ring, untangled by turning round the part between two edges that cross.
