@@ -96,6 +96,11 @@ impl<'s, 'a> Verify<'s, 'a> {
         self.best
     }
 
+    /// Whether anything met cuts the first disk looked into.
+    pub fn is_cut(&self) -> bool {
+        !self.cut.is_empty()
+    }
+
     pub fn run(&mut self) {
         self.search.tree.visit(self);
     }
@@ -121,11 +126,9 @@ impl<'s, 'a> Verify<'s, 'a> {
 
     /// Takes note of an edge that cuts the disk looked into.
     fn cuts(&mut self, edge: u32) {
-        if !self.hunting {
-            self.cut.push(edge);
-            if !self.floating {
-                return;
-            }
+        self.cut.push(edge);
+        if !self.floating {
+            return;
         }
         for site in self.sites_of(edge) {
             let Some(p) = self.search.propose(self.gap, site) else { continue };
