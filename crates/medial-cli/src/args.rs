@@ -31,10 +31,10 @@ const AXIS_HELP: &str = "\
 Examples:
   medial axis fixtures/river.geojson -o river.svg
   medial axis fixtures/river.geojson -o river.png --draw disks
-  medial axis fixtures/shapes.wkt --keypoints --z radius -o axes.geojson
-  medial axis fixtures/shapes.wkt --to wkt
-  medial axis - --from wkt --to json < fixtures/shapes.wkt
-  medial axis fixtures/mixed.geojson --report report.json -o axes.csv; test $? -eq 3
+  medial axis fixtures/river.geojson -o river.axis.json
+  medial axis fixtures/river.geojson -o river.csv --report report.json --timings timings.json
+  medial axis fixtures/shapes/plus_of_unit_squares.wkt --keypoints --z radius -o plus.geojson
+  medial axis - --to wkt < fixtures/shapes/l_with_unit_arms.wkt
 
 Exit status: 0 all done; 1 no usable result; 2 wrong usage; 3 some features were left out.";
 
@@ -59,7 +59,7 @@ pub struct AxisArgs {
     pub side: Side,
     /// Largest distance between a curve and the polyline drawn for it, in units of the input; by
     /// default 1e-4 of the longer side of the feature's box
-    #[arg(long, value_name = "T", value_parser = positive)]
+    #[arg(long, value_name = "T", value_parser = positive, allow_negative_numbers = true)]
     pub tolerance: Option<f64>,
     /// Write keypoints too (geojson, geojsonl, wkt; pictures and axis documents have them)
     #[arg(long)]
@@ -77,8 +77,8 @@ pub struct AxisArgs {
 
 const CHECK_HELP: &str = "\
 Examples:
-  medial check fixtures/shapes.wkt fixtures/shapes.axis.json
-  medial axis fixtures/shapes.wkt --to json | medial check fixtures/shapes.wkt - --to json
+  medial check fixtures/shapes/l_with_unit_arms.wkt fixtures/l_with_unit_arms.axis.json
+  medial axis fixtures/river.geojson --to json | medial check fixtures/river.geojson - --to json
 
 Exit status: 0 no defect; 1 no usable result; 2 wrong usage; 3 some features were left out;
 4 there are defects.";

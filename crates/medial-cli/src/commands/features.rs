@@ -119,8 +119,9 @@ fn process<R>(
     };
     let feature = match item {
         Ok(feature) => feature,
-        Err(FeatureError { feature, error }) => {
+        Err(FeatureError { feature, id, error }) => {
             outcome.index = feature;
+            outcome.id = id;
             outcome.entries.push(Entry::refused("malformed", error.to_string()));
             return outcome;
         }
