@@ -3,7 +3,7 @@
 //! Its JSON Schema is `schema/axis.schema.json` of this crate, also in [`SCHEMA`].
 
 use crate::json::parse;
-use crate::text::lines;
+use crate::text::{lines, offset, syntax_at};
 use crate::{Error, Feature, Json};
 use medial::axis::{Accuracy, CurveKind, Engine, MedialAxis, Path, Side, Site};
 use medial::axis::{SiteKind, UnknownName};
@@ -166,6 +166,10 @@ pub fn read(text: &str) -> impl Iterator<Item = Result<AxisDocument, Error>> {
 }
 
 fn read_line(text: &str, line: &str) -> Result<AxisDocument, Error> {
+    if line.starts_with('[') {
+        let why = "expected an axis document, found an array";
+        return Err(syntax_at(text, offset(text, line), why));
+    }
     let document: Document = parse(text, line)?;
     let wrong = |place: String, why: String| Error::Value {
         place: format!("feature {}: {place}", document.feature),
@@ -252,3 +256,6 @@ fn each<R, T>(
         .map(|(k, record)| convert(record).map_err(|why| wrong(format!("{thing} {k}"), why)))
         .collect()
 }
+
+#[cfg(test)]
+mod tests;

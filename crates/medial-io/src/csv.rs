@@ -63,3 +63,31 @@ fn table(rows: impl IntoIterator<Item = Vec<String>>) -> String {
     }
     writer.into_inner().ok().and_then(|bytes| String::from_utf8(bytes).ok()).unwrap_or_default()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::samples;
+
+    #[test]
+    fn rows_have_as_many_fields_as_the_header() {
+        let id = serde_json::value::RawValue::from_string("\"a, \\\"b\\\"\"".to_owned()).ok();
+        let source = Feature { index: 7, id, ..Feature::default() };
+        let text = header() + &rows(&source, &samples::rectangle(), Drawing::default());
+        let mut reader = ::csv::Reader::from_reader(text.as_bytes());
+        let names = reader.headers().unwrap().clone();
+        let records: Vec<_> = reader.records().map(Result::unwrap).collect();
+        assert_eq!(records.len(), 5);
+        let field = |row: usize, name: &str| {
+            records[row][names.iter().position(|n| n == name).unwrap()].to_owned()
+        };
+        assert_eq!(field(2, "WKT"), "LINESTRING (1 1, 3 1)");
+        assert_eq!(field(2, "feature"), "7");
+        assert_eq!(field(2, "id"), "a, \"b\"");
+        assert_eq!(field(2, "path"), "2");
+        assert_eq!((field(2, "from"), field(2, "to")), ("4".to_owned(), "5".to_owned()));
+        assert_eq!(field(2, "length"), "2");
+        assert_eq!(field(0, "kind_start"), "end");
+        assert_eq!(field(0, "governor_left"), "3");
+    }
+}

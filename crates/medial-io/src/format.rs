@@ -126,3 +126,33 @@ impl FromStr for Format {
             .ok_or_else(|| unknown(word))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn extensions_name_formats() {
+        let of = |name: &str| Format::from_path(Path::new(name)).ok();
+        assert_eq!(of("a/b.GeoJSON"), Some(Format::GeoJson));
+        assert_eq!(of("axes.jsonl"), Some(Format::Json));
+        assert_eq!(of("rings"), None);
+        let error = Format::from_path(Path::new("a.shp")).unwrap_err();
+        assert!(error.to_string().starts_with("`shp` is no known format; known are geojson, "));
+    }
+
+    #[test]
+    fn content_is_told_by_its_beginning() {
+        let of = |text: &str| Format::of_text(text).ok();
+        assert_eq!(of("[[[0,0]]]"), Some(Content::Polygons(Format::Rings)));
+        assert_eq!(of(" POLYGON((0 0))"), Some(Content::Polygons(Format::Wkt)));
+        let collection = "{\"features\":[],\n\"type\":\"FeatureCollection\"}";
+        assert_eq!(of(collection), Some(Content::Polygons(Format::GeoJson)));
+        let lines = "{\"type\":\"Feature\"}\n{\"type\":\"Feature\"}";
+        assert_eq!(of(lines), Some(Content::Polygons(Format::GeoJsonLines)));
+        assert_eq!(of("{\"version\":1,\"type\":\"MedialAxis\"}"), Some(Content::Axes));
+        assert_eq!(of("{\"a\":1}"), None);
+        assert_eq!(of("\u{0}"), None);
+        assert!(matches!(Format::of_text(" \n"), Err(Error::Empty)));
+    }
+}

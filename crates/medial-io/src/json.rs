@@ -22,7 +22,7 @@ fn locate(text: &str, part: &str, error: &serde_json::Error) -> Error {
     let why = error.to_string();
     // The parser ends its message with its own place.
     let why = why.rsplit_once(" at line ").map_or(why.as_str(), |(why, _)| why);
-    syntax_at(text, byte, why)
+    syntax_at(text, byte, why.replace("expected f64", "expected a number"))
 }
 
 /// The `type` of a JSON object.

@@ -48,3 +48,19 @@ pub(crate) fn escaped(text: &str) -> String {
     }
     out
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_byte_order_mark_is_no_content() {
+        assert_eq!(text(b"\xef\xbb\xbfPOINT").unwrap(), "POINT");
+    }
+
+    #[test]
+    fn bytes_that_are_no_text_name_their_line() {
+        let error = text(b"a\nb\xff").unwrap_err();
+        assert_eq!(error.to_string(), "line 2: the bytes are not UTF-8; save the file as UTF-8");
+    }
+}

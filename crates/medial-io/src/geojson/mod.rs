@@ -5,3 +5,6 @@ mod write;
 
 pub use read::{read, read_lines};
 pub use write::{FOOTER, feature_lines, features, header};
+
+#[cfg(test)]
+mod tests;

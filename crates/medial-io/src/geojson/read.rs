@@ -39,7 +39,7 @@ pub fn read(text: &str) -> Result<Layer<'_>, Error> {
     if text.trim().is_empty() {
         return Err(Error::Empty);
     }
-    let object: Object = parse(text, text)?;
+    let object = parse_object(text, text)?;
     let parts = if object.kind == "FeatureCollection" {
         let why = "the FeatureCollection has no `features`";
         object.features.ok_or_else(|| syntax_at(text, 0, why))?
@@ -64,7 +64,7 @@ fn feature(text: &str, part: &str, index: usize) -> Result<Feature, FeatureError
 }
 
 fn read_feature(text: &str, part: &str, index: usize) -> Result<Feature, Error> {
-    let object: Object = parse(text, part)?;
+    let object = parse_object(text, part)?;
     let mut feature = Feature::numbered(index);
     if object.kind != "Feature" {
         read_geometry(text, part, &object, &mut feature, 0)?;
@@ -76,12 +76,21 @@ fn read_feature(text: &str, part: &str, index: usize) -> Result<Feature, Error> 
     }
     match object.geometry {
         Some(raw) => {
-            let geometry: Object = parse(text, raw.get())?;
+            let geometry = parse_object(text, raw.get())?;
             read_geometry(text, raw.get(), &geometry, &mut feature, 0)?;
         }
         None => feature.geometry = "without a geometry".to_owned(),
     }
     Ok(feature)
+}
+
+/// A JSON object; the parser alone would take an array for one.
+fn parse_object<'a>(text: &str, part: &'a str) -> Result<Object<'a>, Error> {
+    if part.trim_start().starts_with('[') {
+        let why = "expected a GeoJSON object, found an array; bare arrays are of the format rings";
+        return Err(syntax_at(text, offset(text, part), why));
+    }
+    parse(text, part)
 }
 
 fn read_geometry(
@@ -115,7 +124,7 @@ fn read_geometry(
                 return Err(syntax_at(text, offset(text, part), why));
             }
             for raw in object.geometries.as_ref().ok_or_else(|| missing("geometries"))? {
-                let inner: Object = parse(text, raw.get())?;
+                let inner = parse_object(text, raw.get())?;
                 read_geometry(text, raw.get(), &inner, feature, depth + 1)?;
             }
         }

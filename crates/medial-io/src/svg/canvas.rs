@@ -1,6 +1,6 @@
 use super::Lettering;
 use super::frame::Frame;
-use super::lettering::strokes;
+use super::lettering::{strokes, width};
 use crate::text::escaped;
 use medial::axis::Curve;
 use medial::geom::Point;
@@ -82,6 +82,14 @@ impl Canvas {
                 );
                 self.path(&data, &attributes);
             }
+        }
+    }
+
+    /// The width of a line of text, estimated for fonts.
+    pub fn text_width(&self, text: &str, size: f64) -> f64 {
+        match self.lettering {
+            Lettering::Text => 0.54 * size * text.chars().count() as f64,
+            Lettering::Strokes => width(text, size),
         }
     }
 

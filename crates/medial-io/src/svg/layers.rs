@@ -83,23 +83,57 @@ fn colored(curve: &Curve, radius_max: f64) -> Vec<(usize, Curve)> {
         .collect()
 }
 
-/// Keypoints as dots: ends small, transitions hollow, junctions full.
+/// Keypoints as dots: ends small, transitions hollow, junctions full; all smaller where paths
+/// are short.
 pub(super) fn keypoints(canvas: &mut Canvas, scenes: &[Scene]) {
+    let frame = canvas.frame;
+    let room: Vec<Vec<f64>> = scenes.iter().map(|s| room(&s.axis)).collect();
     for kind in [KeypointKind::End, KeypointKind::Transition, KeypointKind::Junction] {
-        let frame = canvas.frame;
-        let mut data = Data::new(&frame);
-        for keypoint in scenes.iter().flat_map(|s| s.axis.keypoints()) {
-            if keypoint.kind == kind {
-                data.dot(keypoint.position);
+        let mut sizes: Vec<Data> = (0..DOT_SIZES).map(|_| Data::new(&frame)).collect();
+        for (scene, room) in scenes.iter().zip(&room) {
+            for (keypoint, &room) in scene.axis.keypoints().iter().zip(room) {
+                if keypoint.kind == kind {
+                    let steps = (frame.stroke * DOT_ROOM / frame.length(room)).log2().ceil();
+                    sizes[(steps.max(0.0) as usize).min(DOT_SIZES - 1)].dot(keypoint.position);
+                }
             }
         }
-        dots(canvas, kind, &data.text);
+        let sizes: Vec<String> = sizes.into_iter().map(|d| d.text).collect();
+        for (step, data) in sizes.iter().enumerate().filter(|(_, data)| !data.is_empty()) {
+            dots(canvas, kind, data, frame.stroke * 0.5_f64.powi(step as i32));
+        }
     }
 }
 
+/// Sizes of dots, each half of the one before.
+const DOT_SIZES: usize = 5;
+/// Length of path that a dot of full size needs, in strokes.
+const DOT_ROOM: f64 = 2.0;
+
+/// For each keypoint the distance to the nearest one along a path; at an end no more than where
+/// its path comes from, since ends of cramped junctions are neighbours.
+fn room(axis: &MedialAxis) -> Vec<f64> {
+    let keypoints = axis.keypoints();
+    let mut room = vec![f64::INFINITY; keypoints.len()];
+    for path in axis.paths() {
+        let (from, to) = (path.from as usize, path.to as usize);
+        let length = (keypoints[to].position - keypoints[from].position).norm();
+        room[from] = room[from].min(length);
+        room[to] = room[to].min(length);
+    }
+    for path in axis.paths() {
+        for (end, other) in [(path.from, path.to), (path.to, path.from)] {
+            let (end, other) = (end as usize, other as usize);
+            if keypoints[end].kind == KeypointKind::End {
+                room[end] = room[end].min(room[other]);
+            }
+        }
+    }
+    room
+}
+
 /// The mark of a kind of keypoint at each dot of these data.
-pub(super) fn dots(canvas: &mut Canvas, kind: KeypointKind, data: &str) {
-    let unit = canvas.frame.stroke;
+pub(super) fn dots(canvas: &mut Canvas, kind: KeypointKind, data: &str, unit: f64) {
     let circles: &[(&str, f64)] = match kind {
         KeypointKind::End => &[("#78909c", 2.0)],
         KeypointKind::Transition => &[(INK, 2.6), ("#ffffff", 1.5)],
@@ -221,13 +255,17 @@ pub(super) fn governors(canvas: &mut Canvas, scenes: &[Scene]) {
             SiteKind::Vertex => corners.dot(site.a),
         }
     }
+    let numbered: Vec<&Scene> =
+        scenes.iter().filter(|s| s.axis.sites().len() <= NUMBERED).collect();
+    // A numbered corner is a disk with room for its number.
+    let corner = if numbered.is_empty() { 4.0 * unit } else { 20.0 };
     canvas.open("governors", "fill=\"none\" stroke-linecap=\"round\"");
     let width = number(1.2 * unit);
     canvas.path(&edges.text, &format!("stroke=\"{EDGE_GOVERNOR}\" stroke-width=\"{width}\""));
-    let width = number(4.0 * unit);
+    let width = number(corner);
     canvas.path(&corners.text, &format!("stroke=\"{VERTEX_GOVERNOR}\" stroke-width=\"{width}\""));
     canvas.close();
-    for scene in scenes.iter().filter(|s| s.axis.sites().len() <= NUMBERED) {
+    for scene in numbered {
         for (k, site) in scene.axis.sites().iter().enumerate() {
             let (at, color) = label_place(&frame, site);
             canvas.text(at, 13.0, Anchor::Middle, color, &k.to_string());
@@ -235,7 +273,7 @@ pub(super) fn governors(canvas: &mut Canvas, scenes: &[Scene]) {
     }
 }
 
-/// Where the number of a governor stands, in picture coordinates: beside it, off the interior.
+/// Where the number of a governor stands, in picture coordinates: outside an edge, in a corner.
 fn label_place(frame: &super::frame::Frame, site: &Site) -> (Point, &'static str) {
     let (a, b) = (frame.map(site.a), frame.map(site.b));
     let middle = (a + b) * 0.5 + Point::new(0.0, 4.5);
@@ -246,6 +284,6 @@ fn label_place(frame: &super::frame::Frame, site: &Site) -> (Point, &'static str
             let outward = d.perp() * (13.0 / d.norm().max(1e-9));
             (middle + outward, EDGE_GOVERNOR)
         }
-        SiteKind::Vertex => (middle + Point::new(0.0, -12.0), VERTEX_GOVERNOR),
+        SiteKind::Vertex => (middle, "#ffffff"),
     }
 }

@@ -50,10 +50,10 @@ fn counts(canvas: &mut Canvas, at: Point, scenes: &[Scene], keypoints: bool) {
             let label = plural(all.filter(|k| k.kind == kind).count(), kind.name());
             let place = Point::new(x, at.y + 10.0);
             canvas.text(place, 12.0, Anchor::End, INK, &label);
-            x -= 6.6 * label.len() as f64 + 14.0;
-            let dot = Data::dot_at(Point::new(x + 4.0, at.y + 6.0));
-            dots(canvas, kind, &dot);
-            x -= 16.0;
+            x -= canvas.text_width(&label, 12.0) + 10.0;
+            let dot = Data::dot_at(Point::new(x, at.y + 5.8));
+            dots(canvas, kind, &dot, 2.4);
+            x -= 22.0;
         }
     }
     let place = at + Point::new(0.0, 28.0);

@@ -4,8 +4,11 @@ use super::canvas::{Anchor, number};
 use medial::geom::Point;
 use std::fmt::Write as _;
 
-/// From one letter to the next, as a share of the size of the text.
-const ADVANCE: f64 = 0.55;
+/// Between two letters, and a space, in steps of the grid.
+const GAP: f64 = 1.5;
+const SPACE: f64 = 2.0;
+/// A step of the grid to the right and upwards, as shares of the size of the text.
+const STEP: (f64, f64) = (0.1, 0.7 / 6.0);
 
 /// Lines of a letter, separated by spaces; each point a digit for x (0 to 4) and one for y, where
 /// the base line is 2, small letters reach up to 6 and capitals to 8.
@@ -107,24 +110,42 @@ const UNKNOWN: &str = "0208484202";
 
 /// Path data of a line of text.
 pub(super) fn strokes(text: &str, at: Point, size: f64, anchor: Anchor) -> String {
-    let advance = ADVANCE * size;
-    let width = advance * text.chars().count() as f64;
     let mut x = match anchor {
         Anchor::Start => at.x,
-        Anchor::Middle => at.x - 0.5 * width,
-        Anchor::End => at.x - width,
+        Anchor::Middle => at.x - 0.5 * width(text, size),
+        Anchor::End => at.x - width(text, size),
     };
     let mut data = String::new();
     for letter in text.chars() {
+        let (low, advance) = extent(letter);
         if letter != ' ' {
-            let found = LETTERS.iter().find(|(l, _)| *l == letter);
-            for line in found.map_or(UNKNOWN, |(_, lines)| lines).split(' ') {
-                stroke(&mut data, line, Point::new(x, at.y), size);
+            for line in lines(letter).split(' ') {
+                stroke(&mut data, line, Point::new(x - STEP.0 * low * size, at.y), size);
             }
         }
-        x += advance;
+        x += STEP.0 * (advance + GAP) * size;
     }
     data
+}
+
+/// The width of a line of text.
+pub(super) fn width(text: &str, size: f64) -> f64 {
+    let advances: f64 = text.chars().map(|letter| extent(letter).1 + GAP).sum();
+    STEP.0 * (advances - GAP).max(0.0) * size
+}
+
+fn lines(letter: char) -> &'static str {
+    LETTERS.iter().find(|(l, _)| *l == letter).map_or(UNKNOWN, |(_, lines)| lines)
+}
+
+/// The least x of a letter and its width, in steps of the grid.
+fn extent(letter: char) -> (f64, f64) {
+    if letter == ' ' {
+        return (0.0, SPACE);
+    }
+    let xs = || lines(letter).split(' ').flat_map(|line| line.bytes().step_by(2));
+    let (low, high) = (xs().min().unwrap_or(b'0'), xs().max().unwrap_or(b'4'));
+    (f64::from(low - b'0'), f64::from(high - low))
 }
 
 fn stroke(data: &mut String, line: &str, at: Point, size: f64) {
@@ -132,8 +153,8 @@ fn stroke(data: &mut String, line: &str, at: Point, size: f64) {
         let [gx, gy] = [pair[0], pair[1]].map(|digit| f64::from(digit) - f64::from(b'0'));
         // Dots are lines from a point to itself; a hair of length shows their round caps.
         let hair = 0.01 * k as f64;
-        let x = at.x + (0.1 * gx + 0.03) * size + hair;
-        let y = at.y - (gy - 2.0) * (0.7 / 6.0) * size;
+        let x = at.x + STEP.0 * gx * size + hair;
+        let y = at.y - (gy - 2.0) * STEP.1 * size;
         let verb = if k == 0 { 'M' } else { 'L' };
         let _ = write!(data, "{verb}{} {}", number(x), number(y));
     }
@@ -158,10 +179,11 @@ mod tests {
 
     #[test]
     fn a_line_of_text_is_anchored() {
-        // `l` is one vertical stroke from (2, 8) to (2, 2), 0.23 of the size from its left.
-        let start = strokes("l", Point::new(0.0, 0.0), 10.0, Anchor::Start);
-        assert_eq!(start, "M2.3 -7L2.31 0");
-        let end = strokes("l", Point::new(5.5, 0.0), 10.0, Anchor::End);
-        assert_eq!(end, start);
+        // `L` is 4 steps wide, 4 at size 10, and 7 high.
+        let start = strokes("L", Point::new(0.0, 0.0), 10.0, Anchor::Start);
+        assert_eq!(start, "M0 -7L0.01 0L4.02 0");
+        assert_eq!(width("L", 10.0), 4.0);
+        assert_eq!(strokes("L", Point::new(4.0, 0.0), 10.0, Anchor::End), start);
+        assert_eq!(strokes("L", Point::new(2.0, 0.0), 10.0, Anchor::Middle), start);
     }
 }

@@ -106,11 +106,11 @@ pub fn write(scenes: &[Scene], options: &Options) -> String {
         }
     }
     layers::boundary(&mut canvas, scenes);
-    if options.draw.contains(&Extra::Governors) {
-        layers::governors(&mut canvas, scenes);
-    }
     if options.draw.contains(&Extra::Footpoints) {
         layers::footpoints(&mut canvas, scenes);
+    }
+    if options.draw.contains(&Extra::Governors) {
+        layers::governors(&mut canvas, scenes);
     }
     layers::axis(&mut canvas, scenes, radius_max);
     if options.keypoints {

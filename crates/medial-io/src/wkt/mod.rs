@@ -9,3 +9,6 @@ pub(crate) use write::line_string;
 
 pub use read::read;
 pub use write::write;
+
+#[cfg(test)]
+mod tests;

@@ -72,6 +72,7 @@ impl Domain {
                 domain.report.push(Repair::CutInterior, polygon, 0, Vec::new());
             }
         }
+        domain.number_components()?;
         Ok(domain)
     }
 }

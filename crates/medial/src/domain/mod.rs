@@ -3,7 +3,10 @@
 mod area;
 mod assemble;
 mod build;
+mod components;
 mod error;
+#[cfg(feature = "geo-types")]
+mod geo;
 mod junction;
 mod lines;
 mod nesting;

@@ -3,7 +3,7 @@
 use std::cmp::Ordering;
 
 use super::area;
-use super::{DomainError, Options, Place, Repair, Report};
+use super::{Domain, DomainError, Options, Place, Repair, Report, Walk};
 use crate::geom::{Point, orient2d};
 
 /// Cleaned rings, one after another in one numbering of vertices and edges.
@@ -87,6 +87,28 @@ impl<'a> Rings<'a> {
         Ok(rings)
     }
 
+    /// The walks of a domain as rings.
+    pub(super) fn of_walks(domain: &Domain) -> Rings<'static> {
+        let edges = domain.edges();
+        let ring = |w: &Walk| Ring {
+            polygon: w.polygon,
+            index: 0,
+            hole: w.hole,
+            reversed: false,
+            first: w.first,
+            len: w.len,
+            points: &[],
+            merged: Vec::new(),
+        };
+        Rings {
+            rings: domain.walks().iter().map(ring).collect(),
+            points: edges.iter().map(|e| e.start).collect(),
+            given: (0..edges.len() as u32).collect(),
+            ring: edges.iter().map(|e| e.walk).collect(),
+            lone: true,
+        }
+    }
+
     fn push(
         &mut self,
         points: &'a [Point],
@@ -94,6 +116,9 @@ impl<'a> Rings<'a> {
         options: &Options,
         report: &mut Report,
     ) -> Result<(), DomainError> {
+        if points.is_empty() && at.ring == 0 {
+            return Err(DomainError::Empty { at });
+        }
         let reduced = reduce(points, at)?;
         if let (true, Some(&index)) = (options.strict, reduced.spikes.first()) {
             return Err(DomainError::Spike { at: Place { index, ..at } });

@@ -113,6 +113,8 @@ pub struct Walk {
     pub hole: bool,
     /// Polygon of the feature.
     pub polygon: u32,
+    /// Connected component of the open interior, from 0 in the order of the outer walks.
+    pub component: u32,
 }
 
 /// A valid polygonal domain: the closed boundary walks of one feature.
@@ -123,7 +125,7 @@ pub struct Domain {
     /// Walk by walk, in boundary order.
     edges: Vec<Edge>,
     origins: Vec<Origin>,
-    walks: Vec<Walk>,
+    pub(super) walks: Vec<Walk>,
     pub(super) report: Report,
 }
 
@@ -159,7 +161,8 @@ impl Domain {
             }
             let walk = &edges[first as usize..];
             let polygon = walks.origins[first as usize].polygon;
-            records.push(Walk { first, len, hole: surrounds_a_hole(walk), polygon });
+            let hole = surrounds_a_hole(walk);
+            records.push(Walk { first, len, hole, polygon, component: 0 });
             first += len;
         }
         Self { edges, origins: walks.origins, walks: records, report }

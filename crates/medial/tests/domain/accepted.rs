@@ -284,3 +284,13 @@ fn supporting_lines_are_shared_across_rings() {
     assert_eq!(at(9.0, 9.0), at(3.0, 9.0));
     assert_ne!(at(9.0, 9.0), at(6.0, 8.0));
 }
+
+#[test]
+fn walks_know_their_component() {
+    // Two squares that touch at (4,4), each with a hole; a polygon in the second one's hole.
+    let touching = rings("0 0 4 0 4 4 9 4 9 9 4 9 4 4 0 4 / 5 5 8 5 8 8 5 8 / 1 1 2 1 2 2 1 2");
+    let inner = rings("6 6 7 6 7 7 6 7");
+    let d = Domain::from_polygons(&[touching, inner], &Options::default()).expect("valid");
+    let list: Vec<_> = d.walks().iter().map(|w| (w.hole, w.component)).collect();
+    assert_eq!(list, [(false, 0), (false, 1), (true, 1), (true, 0), (false, 2)]);
+}

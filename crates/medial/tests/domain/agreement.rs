@@ -327,7 +327,7 @@ fn components_and_walks_of_masks_are_those_of_their_cells() {
     let mut random = Random(5);
     let mut accepted = 0;
     for _ in 0..3_000 {
-        let size = 2 + random.below(5) as i64;
+        let size = 2 + random.below(7) as i64;
         let density = 1 + random.below(4);
         let cells = (0..size * size).map(|_| random.below(5) < density).collect();
         let mask = Mask { size, cells };
@@ -348,11 +348,21 @@ fn components_and_walks_of_masks_are_those_of_their_cells() {
         turns_once(&domain);
         // Walks of a component: regions of its complement, which corners join.
         let mut walks = 0;
+        let mut sizes = Vec::new();
         for start in component_starts(&mask) {
             let cells = component(&mask, start);
+            sizes.push(cells.len());
             walks += mask.regions(false, true, |x, y| cells.contains(&(x, y)));
         }
         assert_eq!(domain.walks().len(), walks, "{polygons:?}");
+        let mut areas = vec![0.0; components];
+        for (k, walk) in (0..).zip(domain.walks()) {
+            areas[walk.component as usize] += domain.signed_area(k);
+        }
+        let mut areas: Vec<usize> = areas.into_iter().map(|a| a as usize).collect();
+        areas.sort_unstable();
+        sizes.sort_unstable();
+        assert_eq!(areas, sizes, "{polygons:?}");
     }
     assert!(accepted > 1_500, "{accepted}");
 }

@@ -1,11 +1,9 @@
 //! The doubles next to the exact centre and radius.
 
-use std::cmp::Ordering;
-
 use dashu_int::ops::{BitTest, DivRem, SquareRoot};
 use dashu_int::{IBig, Sign};
 
-use super::grid::integer;
+use super::grid::{Grid, integer};
 use super::homogeneous::{Homogeneous, Radius};
 use super::tower::{Surd, Tower};
 use crate::geom::Point;
@@ -14,63 +12,84 @@ impl Homogeneous {
     /// The centre and the radius, each coordinate rounded to the nearest double, or to the next one
     /// where that is too close to call.
     pub(super) fn nearest(&self) -> (Point, f64) {
-        let unit = self.grid.unit;
-        let origin = self.grid.origin;
-        let coordinate = |local: &Surd, origin: f64| {
-            let numerator = self.w.scale(&integer(origin, unit)).add(local);
-            nearest(&self.tower, &numerator, &self.w, unit)
-        };
-        let centre = Point::new(coordinate(&self.x, origin.x), coordinate(&self.y, origin.y));
-        let mut tower = self.tower.clone();
-        let radius = match &self.radius {
-            Radius::Over { part, n } => {
-                let root = tower.root(Surd::integer(n.clone()));
-                let denominator = tower.mul(&self.w, &root);
-                nearest(&tower, part, &denominator, unit)
+        let Grid { origin, unit } = self.grid;
+        let from_zero = |local: &Surd, origin: f64| self.w.scale(&integer(origin, unit)).add(local);
+        let (x, y) = (from_zero(&self.x, origin.x), from_zero(&self.y, origin.y));
+        let (Radius::Over { part, n } | Radius::Times { part, n }) = &self.radius;
+        let mut results = [Rounding::default(); 3];
+        let mut bits = FIRST_BITS;
+        loop {
+            let roots = Interval::roots(&self.tower, bits);
+            let enclose = |number: &Surd| Interval::enclose(number.coefficients(), &roots, bits);
+            let w = enclose(&self.w);
+            for (number, result) in [&x, &y, part].into_iter().zip(&mut results) {
+                if result.value.is_some() {
+                    continue;
+                }
+                let quotient = if !std::ptr::eq(number, part) {
+                    enclose(number).quotient(&w, unit)
+                } else {
+                    let root = Interval::root(n << bits, n << bits, bits);
+                    match &self.radius {
+                        Radius::Over { .. } => {
+                            enclose(number).shifted(bits).quotient(&w.mul(&root), unit)
+                        }
+                        Radius::Times { .. } => {
+                            enclose(number).mul(&root).quotient(&w.shifted(bits), unit)
+                        }
+                    }
+                };
+                if let Some((low, high)) = quotient {
+                    result.narrow(low, high, || self.tower.sign(number).is_eq());
+                }
             }
-            Radius::Times { part, n } => {
-                let root = tower.root(Surd::integer(n.clone()));
-                let numerator = tower.mul(part, &root);
-                nearest(&tower, &numerator, &self.w, unit)
+            if let [Some(x), Some(y), Some(r)] = results.map(|result| result.value) {
+                return (Point::new(x, y), r);
             }
-        };
-        (centre, radius)
+            bits *= 2;
+        }
     }
 }
 
-/// The double nearest to `numerator/denominator·2^unit`, for a positive denominator.
-fn nearest(tower: &Tower, numerator: &Surd, denominator: &Surd, unit: i32) -> f64 {
-    // Enough bits separate a quotient that is not zero from zero and, unless it is the middle of two
-    // doubles, decide its rounding. Two attempts that see only two neighbours settle the rest.
-    let mut neighbours = false;
-    let mut may_be_zero = true;
-    let mut bits = 64;
-    loop {
-        let roots = Interval::roots(tower, bits);
-        let above = Interval::enclose(numerator.coefficients(), &roots, bits);
-        let below = Interval::enclose(denominator.coefficients(), &roots, bits);
-        bits *= 2;
-        let Some((low, high)) = above.quotient(&below, unit) else { continue };
+/// Fractional bits of the first attempt, which fixes all coordinates but those close to zero or to the
+/// middle of two doubles.
+const FIRST_BITS: usize = 64;
+
+/// The search for the double nearest to a number, by bounds that close in on it.
+///
+/// Enough bits separate a number that is not zero from zero and, unless it is the middle of two doubles,
+/// decide its rounding. Two attempts that see only two neighbours settle the rest.
+#[derive(Clone, Copy, Debug, Default)]
+struct Rounding {
+    value: Option<f64>,
+    not_zero: bool,
+    neighbours: bool,
+}
+
+impl Rounding {
+    /// Takes the rounded ends of bounds on the number.
+    fn narrow(&mut self, low: f64, high: f64, is_zero: impl FnOnce() -> bool) {
         if low == high {
-            return low;
+            self.value = Some(low);
+            return;
         }
-        if may_be_zero && low <= 0.0 && high >= 0.0 {
-            if tower.sign(numerator) == Ordering::Equal {
-                return 0.0;
+        if !self.not_zero && low <= 0.0 && high >= 0.0 {
+            if is_zero() {
+                self.value = Some(0.0);
+                return;
             }
-            may_be_zero = false;
+            self.not_zero = true;
         }
         if low.next_up() == high {
-            if neighbours {
-                return low;
+            if self.neighbours {
+                self.value = Some(low);
             }
-            neighbours = true;
+            self.neighbours = true;
         }
     }
 }
 
 /// Two integers around a number times a power of two.
-#[derive(Clone)]
 struct Interval {
     low: IBig,
     high: IBig,
@@ -82,13 +101,18 @@ impl Interval {
         let mut roots = Vec::with_capacity(tower.radicands().len());
         for radicand in tower.radicands() {
             let square = Self::enclose(radicand.coefficients(), &roots, bits);
-            let root = |bound: IBig| match (bound << bits).into_parts() {
-                (Sign::Positive, magnitude) => IBig::from(magnitude.sqrt()),
-                (Sign::Negative, _) => IBig::ZERO,
-            };
-            roots.push(Self { low: root(square.low), high: root(square.high) + IBig::ONE });
+            roots.push(Self::root(square.low, square.high, bits));
         }
         roots
+    }
+
+    /// Encloses the root of a number between the bounds, which are times `2^bits` as it is.
+    fn root(low: IBig, high: IBig, bits: usize) -> Self {
+        let root = |bound: IBig| match (bound << bits).into_parts() {
+            (Sign::Positive, magnitude) => IBig::from(magnitude.sqrt()),
+            (Sign::Negative, _) => IBig::ZERO,
+        };
+        Self { low: root(low), high: root(high) + IBig::ONE }
     }
 
     /// Encloses an element given by its coefficients, times `2^bits`.
@@ -111,23 +135,17 @@ impl Interval {
         }
     }
 
+    /// The product with a number that is not negative.
     fn mul(&self, other: &Self) -> Self {
-        let products = [
-            &self.low * &other.low,
-            &self.low * &other.high,
-            &self.high * &other.low,
-            &self.high * &other.high,
-        ];
-        let [first, rest @ ..] = products;
-        let mut product = Self { low: first.clone(), high: first };
-        for value in rest {
-            if value < product.low {
-                product.low = value;
-            } else if value > product.high {
-                product.high = value;
-            }
-        }
-        product
+        let is_negative = |bound: &IBig| bound.sign() == Sign::Negative;
+        let for_low = if is_negative(&self.low) { &other.high } else { &other.low };
+        let for_high = if is_negative(&self.high) { &other.low } else { &other.high };
+        Self { low: &self.low * for_low, high: &self.high * for_high }
+    }
+
+    /// The product with a power of two.
+    fn shifted(&self, bits: usize) -> Self {
+        Self { low: &self.low << bits, high: &self.high << bits }
     }
 
     /// The rounded ends of the quotient times `2^unit`, once the divisor is clear of zero.
