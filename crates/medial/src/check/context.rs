@@ -1,5 +1,5 @@
-use super::box_tree::BoxTree;
 use super::enclosure::norm1;
+use super::tree::Tree;
 use super::{Defect, Name};
 use crate::axis::MedialAxis;
 use crate::domain::{Corner, Domain, Site};
@@ -11,7 +11,7 @@ pub(super) struct Context<'a> {
     pub(super) axis: &'a MedialAxis,
     /// The element of the domain behind each site of the axis, if it has one.
     pub(super) sites: Vec<Option<Site>>,
-    pub(super) tree: BoxTree,
+    pub(super) tree: Tree,
     /// Largest coordinate sum of a corner: what rounding errors near the boundary refer to.
     pub(super) size: f64,
 }
@@ -61,7 +61,7 @@ impl<'a> Context<'a> {
             }
         }
         let size = domain.edges().iter().map(|edge| norm1(edge.start)).fold(0.0, f64::max);
-        Self { domain, axis, sites, tree: BoxTree::new(domain), size }
+        Self { domain, axis, sites, tree: Tree::new(domain), size }
     }
 
     /// Position of keypoint number `keypoint`.

@@ -301,42 +301,37 @@ impl One<'_, '_> {
             at,
         };
         let reach = radius + margin;
-        let found = context.tree.near(
-            centre,
-            &mut (),
-            |()| reach,
-            |(), edge| {
-                let distance = context.distance(centre, edge);
-                if distance > reach {
-                    return ControlFlow::Continue(());
-                }
-                if distance < radius - margin {
-                    return ControlFlow::Break(cut(Site::edge(edge)));
-                }
-                let corner = Site::corner(edge);
-                let start = context.domain.edge(edge).start;
-                if !listed(corner) && (centre - start).norm() <= reach {
-                    match disk.side(corner) {
-                        Ordering::Less => return ControlFlow::Break(cut(corner)),
-                        Ordering::Equal if disk.in_zone(corner) => {
-                            return ControlFlow::Break(missing(corner));
-                        }
-                        // A convex or straight corner is touched only with its edges.
-                        _ => {}
+        let found = context.tree.near(centre, reach, |edge| {
+            let distance = context.distance(centre, edge);
+            if distance > reach {
+                return ControlFlow::Continue(());
+            }
+            if distance < radius - margin {
+                return ControlFlow::Break(cut(Site::edge(edge)));
+            }
+            let corner = Site::corner(edge);
+            let start = context.domain.edge(edge).start;
+            if !listed(corner) && (centre - start).norm() <= reach {
+                match disk.side(corner) {
+                    Ordering::Less => return ControlFlow::Break(cut(corner)),
+                    Ordering::Equal if disk.in_zone(corner) => {
+                        return ControlFlow::Break(missing(corner));
                     }
+                    // A convex or straight corner is touched only with its edges.
+                    _ => {}
                 }
-                if !listed(Site::edge(edge)) {
-                    match disk.touch(edge) {
-                        Some(Ordering::Less) => return ControlFlow::Break(cut(Site::edge(edge))),
-                        Some(Ordering::Equal) => {
-                            return ControlFlow::Break(missing(Site::edge(edge)));
-                        }
-                        _ => {}
+            }
+            if !listed(Site::edge(edge)) {
+                match disk.touch(edge) {
+                    Some(Ordering::Less) => return ControlFlow::Break(cut(Site::edge(edge))),
+                    Some(Ordering::Equal) => {
+                        return ControlFlow::Break(missing(Site::edge(edge)));
                     }
+                    _ => {}
                 }
-                ControlFlow::Continue(())
-            },
-        );
+            }
+            ControlFlow::Continue(())
+        });
         self.defects.extend(found);
     }
 

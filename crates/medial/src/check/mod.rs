@@ -19,7 +19,6 @@
 
 mod areas;
 mod boundary;
-mod box_tree;
 mod context;
 mod defect;
 mod direction;
@@ -30,6 +29,7 @@ mod maximal_disk;
 mod name;
 mod paths;
 mod sampled;
+mod tree;
 mod verdict;
 
 pub use defect::Defect;

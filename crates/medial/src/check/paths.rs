@@ -132,18 +132,13 @@ fn check_middle(
     // The inner point is at most this far from the bisector.
     let off = 2.0 * ((to_left - to_right).abs() + noise) / opening;
     let free = to_left.min(to_right) - 2.0 * off - noise;
-    let found = context.tree.near(
-        middle,
-        &mut (),
-        |()| free,
-        |(), edge| {
-            if context.distance(middle, edge) < free {
-                ControlFlow::Break(Site::edge(edge))
-            } else {
-                ControlFlow::Continue(())
-            }
-        },
-    );
+    let found = context.tree.near(middle, free, |edge| {
+        if context.distance(middle, edge) < free {
+            ControlFlow::Break(Site::edge(edge))
+        } else {
+            ControlFlow::Continue(())
+        }
+    });
     if free > 0.0
         && let Some(site) = found
     {

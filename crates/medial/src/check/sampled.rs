@@ -1,5 +1,3 @@
-use std::ops::ControlFlow;
-
 use super::Defect;
 use super::context::Context;
 
@@ -7,19 +5,11 @@ use super::context::Context;
 /// from the boundary, up to `spacing`.
 pub(super) fn check(context: &Context, spacing: f64, defects: &mut Vec<Defect>) {
     for (number, keypoint) in context.axis.keypoints().iter().enumerate() {
-        let mut distance = f64::INFINITY;
-        context.tree.near(
-            keypoint.position,
-            &mut distance,
-            |distance| *distance,
-            |distance, edge| {
-                *distance = distance.min(context.distance(keypoint.position, edge));
-                ControlFlow::<()>::Continue(())
-            },
-        );
+        let at = keypoint.position;
+        let distance = context.tree.nearest(at, |edge| context.distance(at, edge));
         let off = (keypoint.radius - distance).abs();
         if off.is_nan() || off > spacing {
-            let (keypoint, at) = (number as u32, keypoint.position);
+            let keypoint = number as u32;
             defects.push(Defect::SampledRadius { keypoint, off, at });
         }
     }
