@@ -11,6 +11,7 @@ mod rough;
 mod round;
 mod stages;
 mod tower;
+mod transition;
 mod wide;
 
 pub use counts::{Counts, counts, reset_counts};

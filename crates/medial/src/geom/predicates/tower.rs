@@ -209,6 +209,19 @@ impl Tower {
     }
 }
 
+/// The sign of `low + high·√radicand`, for a radicand that is not negative.
+pub(super) fn sign_with_root(low: &IBig, high: &IBig, radicand: &IBig) -> Ordering {
+    let (of_low, of_high) = (sign_of_integer(low), sign_of_integer(high));
+    if of_low == of_high || of_high.is_eq() || radicand.is_zero() {
+        return of_low;
+    }
+    if of_low.is_eq() {
+        return of_high;
+    }
+    let larger = (low * low).cmp(&(high * high * radicand));
+    if of_low.is_gt() { larger } else { larger.reverse() }
+}
+
 /// The order of an integer against zero.
 pub(super) fn sign_of_integer(value: &IBig) -> Ordering {
     if value.is_zero() {
