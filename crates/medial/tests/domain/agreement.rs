@@ -1,7 +1,7 @@
 //! Thousands of tiny polygons against the definitions, and against each other in other positions.
 
-use medial::domain::{Corner, Domain, DomainError, Options};
-use medial::geom::Point;
+use medial::domain::{Corner, Domain, DomainError, Options, Repair};
+use medial::geom::{Point, orient2d};
 
 use crate::brute::{overlap, verdict};
 use crate::shapes::{REGROUP, Rings};
@@ -60,6 +60,7 @@ fn agrees(rings: &Rings) -> (bool, bool) {
             assert_eq!(domain.edges().len(), expected.pieces, "{rings:?}");
             assert_eq!(domain.area() * 2.0, expected.twice_area as f64, "{rings:?}");
             turns_once(domain);
+            names_are_true(domain, rings);
         }
         Err(error) => {
             assert!(!expected.accepted(), "refused {rings:?}: {error}");
@@ -77,6 +78,42 @@ fn agrees(rings: &Rings) -> (bool, bool) {
         }
     }
     (result.is_ok(), result.is_ok() && expected.bridges > 0)
+}
+
+/// Names of edges and corners are unique, and lead to their place in the input.
+fn names_are_true(domain: &Domain, rings: &Rings) {
+    let (mut edges, mut corners) = (Vec::new(), Vec::new());
+    for k in 0..domain.edges().len() as u32 {
+        let (start, end) = (domain.edge(k).start, domain.end(k));
+        let origin = domain.origin(k);
+        let given = rings[origin.ring as usize][origin.index as usize];
+        assert_eq!(orient2d(start, end, given), 0.0);
+        let cut = domain.report().entries().iter().any(|e| {
+            e.repair == Repair::SplitEdge
+                && e.ring == origin.ring
+                && e.indices.contains(&origin.index)
+        });
+        assert!(cut || origin.part == 0 && (given == start || given == end), "{rings:?}");
+        edges.push((origin.ring, origin.index, origin.part));
+
+        let corner = origin.corner;
+        let before = domain.origin(domain.edge(k).prev);
+        assert_eq!(corner.ring, before.ring);
+        if corner.part == 0 {
+            assert_eq!(rings[corner.ring as usize][corner.index as usize], start, "{rings:?}");
+        } else {
+            assert_eq!(corner.index, before.index);
+            // Along the input direction the touch follows the piece of its number less one.
+            assert!(corner.part == before.part || corner.part == before.part + 1);
+        }
+        corners.push((corner.ring, corner.index, corner.part));
+    }
+    for mut names in [edges, corners] {
+        let n = names.len();
+        names.sort_unstable();
+        names.dedup();
+        assert_eq!(names.len(), n, "{rings:?}");
+    }
 }
 
 /// An outer walk turns left by one full turn in all, one around a hole turns right.
@@ -365,6 +402,56 @@ fn components_and_walks_of_masks_are_those_of_their_cells() {
         assert_eq!(areas, sizes, "{polygons:?}");
     }
     assert!(accepted > 1_500, "{accepted}");
+}
+
+#[test]
+fn regrouped_rings_enclose_the_cells_of_odd_parity() {
+    let mut random = Random(7);
+    let (mut accepted, mut nested) = (0, 0);
+    for _ in 0..60_000 {
+        let size = 2 + random.below(4) as i64;
+        let rings: Rings = (0..2 + random.below(3))
+            .map(|_| {
+                let len = 4 + random.below(12);
+                if random.below(2) == 0 {
+                    random_walk(&mut random, size, len)
+                } else {
+                    random_box(&mut random, size as usize)
+                }
+            })
+            .collect();
+        let Ok(domain) = Domain::from_polygons(std::slice::from_ref(&rings), &REGROUP) else {
+            continue;
+        };
+        accepted += 1;
+        nested += usize::from(domain.report().count(Repair::Regrouped) > 0);
+        let cells = (0..size * size).map(|k| odd(&rings, k % size, k / size)).collect();
+        let mask = Mask { size, cells };
+        let full = mask.cells.iter().filter(|&&c| c).count();
+        assert_eq!(domain.area(), full as f64, "{rings:?}");
+        let components = mask.regions(true, false, |x, y| mask.at(x, y));
+        assert_eq!(domain.n_components(), components, "{rings:?}");
+    }
+    assert!(accepted > 2_000 && nested > 500, "{accepted} {nested}");
+}
+
+fn random_box(random: &mut Random, size: usize) -> Vec<Point> {
+    let mut side = || {
+        let low = random.below(size);
+        (low as f64, (low + 1 + random.below(size - low)) as f64)
+    };
+    let ((left, right), (low, high)) = (side(), side());
+    [(left, low), (right, low), (right, high), (left, high)].map(|(x, y)| Point::new(x, y)).to_vec()
+}
+
+/// Whether an odd number of upright unit steps of the rings lie to the left of a cell.
+fn odd(rings: &Rings, x: i64, y: i64) -> bool {
+    let middle = y as f64 + 0.5;
+    let steps = rings
+        .iter()
+        .flat_map(|ring| (0..ring.len()).map(move |k| (ring[k], ring[(k + 1) % ring.len()])));
+    let left = |&(a, b): &(Point, Point)| a.x <= x as f64 && (a.y < middle) != (b.y < middle);
+    steps.filter(left).count() % 2 == 1
 }
 
 fn component(mask: &Mask, start: (i64, i64)) -> std::collections::BTreeSet<(i64, i64)> {
