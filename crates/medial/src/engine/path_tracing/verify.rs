@@ -246,7 +246,7 @@ impl<'s, 'a> Verify<'s, 'a> {
             let q = self.certified.centre - a;
             let x = direction.dot(q);
             let doubt = self.doubt(a, q);
-            (x.abs() > doubt).then(|| if x > 0.0 { Ordering::Greater } else { Ordering::Less })
+            (x.abs() > doubt).then_some(if x > 0.0 { Ordering::Greater } else { Ordering::Less })
         };
         (side(domain.edge(edge).start), side(domain.end(edge)))
     }
