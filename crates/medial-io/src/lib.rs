@@ -1,7 +1,7 @@
 //! Formats for the medial axis toolkit.
 //!
 //! One module a format, text or bytes in and out; no file is touched here.
-//! [`read`] gives the features of a text in any format that holds polygons,
+//! [`read`] gives the features of an input in any format that holds polygons,
 //! [`axis_document::read`] the axes of a document, and each format's `write` the rest.
 //!
 //! Every double is read exactly and written as the shortest text that reads back to it.
@@ -23,6 +23,7 @@ pub mod geojson;
 pub mod png;
 pub mod rings;
 pub mod svg;
+pub mod wkb;
 pub mod wkt;
 
 pub use error::{Error, FeatureError};
@@ -31,17 +32,18 @@ pub use format::{Content, Format, UnknownFormat};
 pub use path::{Drawing, default_tolerance};
 pub use text::text;
 
-/// Reads the features of a text in a format that holds polygons.
+/// Reads the features of the bytes of a format that holds polygons.
 ///
 /// # Errors
-/// If the format holds no polygons, or the text as a whole is not of that format. What is wrong
+/// If the format holds no polygons, or the bytes as a whole are not of that format. What is wrong
 /// with one feature only is an item of the layer.
-pub fn read(format: Format, text: &str) -> Result<Layer<'_>, Error> {
+pub fn read(format: Format, bytes: &[u8]) -> Result<Layer<'_>, Error> {
     match format {
-        Format::GeoJson => geojson::read(text),
-        Format::GeoJsonLines => Ok(geojson::read_lines(text)),
-        Format::Wkt => Ok(wkt::read(text)),
-        Format::Rings => rings::read(text),
+        Format::GeoJson => geojson::read(text(bytes)?),
+        Format::GeoJsonLines => Ok(geojson::read_lines(text(bytes)?)),
+        Format::Wkt => Ok(wkt::read(text(bytes)?)),
+        Format::Wkb => wkb::read(bytes),
+        Format::Rings => rings::read(text(bytes)?),
         other => Err(Error::Unreadable { format: other }),
     }
 }
