@@ -45,11 +45,7 @@ fn name(path: &Path) -> String {
 }
 
 /// The format of the polygons in an input: as asked for, by the extension, else by the content.
-pub fn polygon_format(
-    input: &Input,
-    path: &Path,
-    from: Option<Format>,
-) -> Result<Format, Failure> {
+pub fn polygon_format(input: &Input, path: &Path, from: Option<Format>) -> Result<Format, Failure> {
     match from.or_else(|| Format::from_path(path).ok()) {
         Some(Format::Json) | None => match Format::of_content(input.bytes()) {
             Ok(Content::Polygons(format)) => Ok(format),
