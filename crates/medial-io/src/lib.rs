@@ -4,6 +4,21 @@
 //! [`read`] gives the features of an input in any format that holds polygons,
 //! [`axis_document::read`] the axes of a document, and each format's `write` the rest.
 //!
+//! ```
+//! use medial::domain::{Domain, Options};
+//! use medial::engine::path_tracing;
+//! use medial_io::{Drawing, Format, read, wkt};
+//!
+//! let layer = read(Format::Wkt, b"POLYGON ((0 0, 4 0, 4 2, 0 2, 0 0))")?;
+//! for feature in layer {
+//!     let domain = Domain::from_polygons(&feature?.polygons, &Options::default())?;
+//!     let axis = path_tracing(&domain)?;
+//!     let lines = wkt::write(&axis, Drawing::default());
+//!     assert!(lines.contains("(1 1, 3 1)"), "the spine of the rectangle");
+//! }
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
 //! Every double is read exactly and written as the shortest text that reads back to it.
 
 mod error;
