@@ -42,12 +42,13 @@ Exit status: 0 all done; 1 no usable result; 2 wrong usage; 3 some features were
 #[derive(Debug, Args)]
 #[command(after_help = AXIS_HELP)]
 pub struct AxisArgs {
-    /// Polygons: GeoJSON, GeoJSON lines, WKT or rings; `-` for standard input
+    /// Polygons: GeoJSON, GeoJSON lines, WKT, WKB or rings; `-` for standard input
     pub input: PathBuf,
     /// File to write; by default, and for `-`, standard output
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
-    /// Format of the output: geojson, geojsonl, json (axis document), wkt, csv, svg, png; by
+    /// Format of the output: geojson, geojsonl, json (axis document), wkt, wkb, csv, svg, png;
+    /// by
     /// default that of the extension, on standard output geojson
     #[arg(long, value_name = "FORMAT")]
     pub to: Option<Format>,
@@ -61,10 +62,10 @@ pub struct AxisArgs {
     /// default 1e-4 of the longer side of the feature's box
     #[arg(long, value_name = "T", value_parser = positive, allow_negative_numbers = true)]
     pub tolerance: Option<f64>,
-    /// Write keypoints too (geojson, geojsonl, wkt; pictures and axis documents have them)
+    /// Write keypoints too (geojson, geojsonl, wkt, wkb; pictures and axis documents have them)
     #[arg(long)]
     pub keypoints: bool,
-    /// Write the radius as third coordinate (geojson, geojsonl, wkt, csv)
+    /// Write the radius as third coordinate (geojson, geojsonl, wkt, wkb, csv)
     #[arg(long, value_name = "VALUE")]
     pub z: Option<Height>,
     /// What a picture shows besides, separated by commas: disks, footpoints, cells, zones,
@@ -87,7 +88,7 @@ Exit status: 0 no defect; 1 no usable result; 2 wrong usage; 3 some features wer
 #[derive(Debug, Args)]
 #[command(after_help = CHECK_HELP)]
 pub struct CheckArgs {
-    /// Polygons: GeoJSON, GeoJSON lines, WKT or rings; `-` for standard input
+    /// Polygons: GeoJSON, GeoJSON lines, WKT, WKB or rings; `-` for standard input
     pub domain: PathBuf,
     /// Axis document of these polygons; `-` for standard input
     pub axis: PathBuf,
@@ -104,8 +105,8 @@ pub struct CheckArgs {
 /// Arguments of every command that reads polygons.
 #[derive(Debug, Args)]
 pub struct Common {
-    /// Format of the polygons: geojson, geojsonl, wkt, rings; by default that of the extension,
-    /// else told by the content
+    /// Format of the polygons: geojson, geojsonl, wkt, wkb, rings; by default that of the
+    /// extension, else told by the content
     #[arg(long, value_name = "FORMAT")]
     pub from: Option<Format>,
     /// Refuse what would be repaired

@@ -57,7 +57,8 @@ fn a_format_that_is_named_is_not_guessed() {
 #[test]
 fn formats_of_files_come_from_their_extensions() {
     let folder = tempfile::tempdir().unwrap();
-    let starts: [(&str, &[u8]); 8] = [
+    let starts: [(&str, &[u8]); 9] = [
+        ("a.wkb", b"\x01\x05\x00\x00\x00\x05\x00\x00\x00"),
         ("a.geojson", b"{\"type\":\"FeatureCollection\""),
         ("a.geojsonl", b"{\"type\":\"Feature\""),
         ("a.json", b"{\"type\":\"MedialAxis\""),
@@ -73,7 +74,7 @@ fn formats_of_files_come_from_their_extensions() {
         assert_eq!((run.status, run.errors.as_str(), run.out.len()), (Some(0), "", 0), "{name}");
         assert!(std::fs::read(&file).unwrap().starts_with(start), "{name}");
     }
-    assert_eq!(names(folder.path()).len(), 8, "nothing else is left behind");
+    assert_eq!(names(folder.path()).len(), 9, "nothing else is left behind");
 }
 
 #[test]
@@ -211,7 +212,7 @@ fn input_that_cannot_be_read_names_the_file() {
         ("", "the input is empty"),
         ("{\"type\":\"FeatureCollection\",\n\"features\":[}", "line 2, column 13: expected value"),
         ("{\"type\":\"MedialAxis\"}", "polygons are needed here"),
-        ("\u{1}", "name it with --from"),
+        ("\u{2}", "name it with --from"),
     ] {
         let run = medial_with(&["axis", "-"], input);
         assert_eq!(run.status, Some(1), "{input}");
@@ -313,4 +314,13 @@ fn a_link_stays_a_link() {
 fn a_device_is_written_as_it_is() {
     let run = medial_with(&["axis", "-", "--to", "wkt", "-o", "/dev/null"], RECTANGLE);
     assert_eq!((run.status, run.errors.as_str()), (Some(0), ""));
+}
+
+#[test]
+fn progress_is_told_in_lines_where_there_is_no_terminal() {
+    let args = ["axis", &path("mixed.geojson"), "-q", "--progress", "always"];
+    let run = medial(&args);
+    assert_eq!(run.errors.lines().last(), Some("progress: 7 of 7 features"));
+    let silent = medial(&["axis", &path("river.geojson")]);
+    assert_eq!(silent.errors, "");
 }
