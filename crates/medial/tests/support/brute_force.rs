@@ -211,6 +211,10 @@ fn maximal(domain: &Domain, disk: &ExactDisk, three: [Site; 3], all: &[Site]) ->
         if site.is_edge() {
             let (a, b) = (domain.edge(site.index()).start, domain.end(site.index()));
             if disk.front(a, b).is_lt() {
+                // Seen from behind it governs nothing, but may still cut.
+                if disk.side(Element::Edge(b, a)).is_lt() {
+                    return None;
+                }
                 continue;
             }
         }
