@@ -31,10 +31,10 @@ const AXIS_HELP: &str = "\
 Examples:
   medial axis fixtures/river.geojson -o river.svg
   medial axis fixtures/river.geojson -o river.png --draw disks
-  medial axis fixtures/shapes.wkt --keypoints --z radius -o axes.geojson
-  medial axis fixtures/shapes.wkt --to wkt
-  medial axis - --from wkt --to json < fixtures/shapes.wkt
-  medial axis fixtures/mixed.geojson --report report.json -o axes.csv; test $? -eq 3
+  medial axis fixtures/river.geojson -o river.axis.json
+  medial axis fixtures/river.geojson -o river.csv --report report.json --timings timings.json
+  medial axis fixtures/shapes/plus_of_unit_squares.wkt --keypoints --z radius -o plus.geojson
+  medial axis - --to wkt < fixtures/shapes/l_with_unit_arms.wkt
 
 Exit status: 0 all done; 1 no usable result; 2 wrong usage; 3 some features were left out.";
 
@@ -42,12 +42,13 @@ Exit status: 0 all done; 1 no usable result; 2 wrong usage; 3 some features were
 #[derive(Debug, Args)]
 #[command(after_help = AXIS_HELP)]
 pub struct AxisArgs {
-    /// Polygons: GeoJSON, GeoJSON lines, WKT or rings; `-` for standard input
+    /// Polygons: GeoJSON, GeoJSON lines, WKT, WKB or rings; `-` for standard input
     pub input: PathBuf,
     /// File to write; by default, and for `-`, standard output
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
-    /// Format of the output: geojson, geojsonl, json (axis document), wkt, csv, svg, png; by
+    /// Format of the output: geojson, geojsonl, json (axis document), wkt, wkb, csv, svg, png;
+    /// by
     /// default that of the extension, on standard output geojson
     #[arg(long, value_name = "FORMAT")]
     pub to: Option<Format>,
@@ -59,12 +60,12 @@ pub struct AxisArgs {
     pub side: Side,
     /// Largest distance between a curve and the polyline drawn for it, in units of the input; by
     /// default 1e-4 of the longer side of the feature's box
-    #[arg(long, value_name = "T", value_parser = positive)]
+    #[arg(long, value_name = "T", value_parser = positive, allow_negative_numbers = true)]
     pub tolerance: Option<f64>,
-    /// Write keypoints too (geojson, geojsonl, wkt; pictures and axis documents have them)
+    /// Write keypoints too (geojson, geojsonl, wkt, wkb; pictures and axis documents have them)
     #[arg(long)]
     pub keypoints: bool,
-    /// Write the radius as third coordinate (geojson, geojsonl, wkt, csv)
+    /// Write the radius as third coordinate (geojson, geojsonl, wkt, wkb, csv)
     #[arg(long, value_name = "VALUE")]
     pub z: Option<Height>,
     /// What a picture shows besides, separated by commas: disks, footpoints, cells, zones,
@@ -77,8 +78,8 @@ pub struct AxisArgs {
 
 const CHECK_HELP: &str = "\
 Examples:
-  medial check fixtures/shapes.wkt fixtures/shapes.axis.json
-  medial axis fixtures/shapes.wkt --to json | medial check fixtures/shapes.wkt - --to json
+  medial check fixtures/shapes/l_with_unit_arms.wkt fixtures/l_with_unit_arms.axis.json
+  medial axis fixtures/river.geojson --to json | medial check fixtures/river.geojson - --to json
 
 Exit status: 0 no defect; 1 no usable result; 2 wrong usage; 3 some features were left out;
 4 there are defects.";
@@ -87,7 +88,7 @@ Exit status: 0 no defect; 1 no usable result; 2 wrong usage; 3 some features wer
 #[derive(Debug, Args)]
 #[command(after_help = CHECK_HELP)]
 pub struct CheckArgs {
-    /// Polygons: GeoJSON, GeoJSON lines, WKT or rings; `-` for standard input
+    /// Polygons: GeoJSON, GeoJSON lines, WKT, WKB or rings; `-` for standard input
     pub domain: PathBuf,
     /// Axis document of these polygons; `-` for standard input
     pub axis: PathBuf,
@@ -104,8 +105,8 @@ pub struct CheckArgs {
 /// Arguments of every command that reads polygons.
 #[derive(Debug, Args)]
 pub struct Common {
-    /// Format of the polygons: geojson, geojsonl, wkt, rings; by default that of the extension,
-    /// else told by the content
+    /// Format of the polygons: geojson, geojsonl, wkt, wkb, rings; by default that of the
+    /// extension, else told by the content
     #[arg(long, value_name = "FORMAT")]
     pub from: Option<Format>,
     /// Refuse what would be repaired

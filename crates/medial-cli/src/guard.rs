@@ -14,10 +14,16 @@ pub fn install() {
         let text = described(info);
         if GUARDED.get() {
             LAST.set(text);
-        } else {
+        } else if !text.starts_with("a scoped thread panicked") {
+            // The thread itself has told why.
             crate::progress::line(&format!("error: {}", asking(&text)));
         }
     }));
+}
+
+/// The result of `work`, unless it panicked, which has been told by then.
+pub fn caught<T>(work: impl FnOnce() -> T) -> Result<T, ()> {
+    panic::catch_unwind(AssertUnwindSafe(work)).map_err(|_| ())
 }
 
 /// The result of `work`, or what to say of its panic.

@@ -26,6 +26,10 @@ impl Input {
         }
     }
 
+    pub fn bytes(&self) -> &[u8] {
+        &self.bytes
+    }
+
     pub fn text(&self) -> Result<&str, Failure> {
         medial_io::text(&self.bytes).map_err(|error| self.wrong(error))
     }
@@ -40,22 +44,17 @@ fn name(path: &Path) -> String {
     if path.as_os_str() == "-" { "<stdin>".to_owned() } else { path.display().to_string() }
 }
 
-/// The format of polygons in a text: as asked for, by the extension, else by the content.
-pub fn polygon_format(
-    input: &Input,
-    path: &Path,
-    from: Option<Format>,
-    text: &str,
-) -> Result<Format, Failure> {
+/// The format of the polygons in an input: as asked for, by the extension, else by the content.
+pub fn polygon_format(input: &Input, path: &Path, from: Option<Format>) -> Result<Format, Failure> {
     match from.or_else(|| Format::from_path(path).ok()) {
-        Some(Format::Json) | None => match Format::of_text(text) {
+        Some(Format::Json) | None => match Format::of_content(input.bytes()) {
             Ok(Content::Polygons(format)) => Ok(format),
             Ok(Content::Axes) => Err(input.wrong("is an axis document; polygons are needed here")),
             Err(error) => Err(input.wrong(error)),
         },
         Some(format @ (Format::Csv | Format::Svg | Format::Png)) => {
             let why = format!(
-                "the format {format} is written only; polygons come as geojson, geojsonl, wkt or rings"
+                "the format {format} is written only; polygons come as geojson, geojsonl, wkt, wkb or rings"
             );
             Err(if from.is_some() { Failure::Usage(why) } else { input.wrong(why) })
         }

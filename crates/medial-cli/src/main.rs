@@ -13,16 +13,21 @@ mod timings;
 mod verdicts;
 
 use args::Command;
+use failure::{Failure, Status};
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
     guard::install();
-    let result = args::parse().and_then(|command| match command {
-        Command::Axis(args) => commands::axis::run(&args),
-        Command::Check(args) => commands::check::run(&args),
-    });
+    let Ok(result) = guard::caught(run) else { return Status::NoResult.into() };
     match result {
         Ok(status) => status.into(),
         Err(failure) => failure.tell(),
+    }
+}
+
+fn run() -> Result<Status, Failure> {
+    match args::parse()? {
+        Command::Axis(args) => commands::axis::run(&args),
+        Command::Check(args) => commands::check::run(&args),
     }
 }

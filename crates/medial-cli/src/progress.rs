@@ -1,20 +1,29 @@
 use crate::args::When;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use std::cell::Cell;
 use std::io::{IsTerminal as _, Write as _};
+use std::time::{Duration, Instant};
+
+/// Time between lines of progress where standard error is no terminal.
+const PAUSE: Duration = Duration::from_secs(1);
 
 /// The count of features done, on a terminal, and warnings beside it.
 pub struct Progress {
     bar: ProgressBar,
+    /// When the last line was written, where lines stand for the bar.
+    lines: Option<Cell<Instant>>,
     quiet: bool,
 }
 
 impl Progress {
     pub fn new(when: When, quiet: bool, len: Option<usize>) -> Self {
+        let terminal = std::io::stderr().is_terminal();
         let shown = match when {
             When::Always => true,
             When::Never => false,
-            When::Auto => !quiet && std::io::stderr().is_terminal(),
+            When::Auto => !quiet && terminal,
         };
+        let lines = (shown && !terminal).then(|| Cell::new(Instant::now()));
         let target =
             if shown { ProgressDrawTarget::stderr() } else { ProgressDrawTarget::hidden() };
         let bar = ProgressBar::with_draw_target(len.map(|n| n as u64), target);
@@ -25,11 +34,17 @@ impl Progress {
         if let Ok(style) = ProgressStyle::with_template(template) {
             bar.set_style(style);
         }
-        Self { bar, quiet }
+        Self { bar, lines, quiet }
     }
 
     pub fn step(&self) {
         self.bar.inc(1);
+        if let Some(last) = &self.lines
+            && last.get().elapsed() >= PAUSE
+        {
+            last.set(Instant::now());
+            self.tell();
+        }
     }
 
     pub fn error(&self, text: &str) {
@@ -43,7 +58,15 @@ impl Progress {
     }
 
     pub fn finish(&self) {
+        if self.lines.is_some() {
+            self.tell();
+        }
         self.bar.finish_and_clear();
+    }
+
+    fn tell(&self) {
+        let of = self.bar.length().map_or_else(String::new, |len| format!(" of {len}"));
+        line(&format!("progress: {}{of} features", self.bar.position()));
     }
 }
 

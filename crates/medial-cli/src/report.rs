@@ -159,6 +159,14 @@ mod tests {
     }
 
     #[test]
+    fn the_documentation_lists_every_repair() {
+        let formats = include_str!("../../../docs/formats.md");
+        for repair in Repair::ALL {
+            assert!(formats.contains(&format!("`{repair}`")), "{repair}");
+        }
+    }
+
+    #[test]
     fn every_repair_has_words() {
         for repair in Repair::ALL {
             assert_ne!(told(repair), repair.to_string());

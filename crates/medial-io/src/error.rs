@@ -1,4 +1,4 @@
-use crate::Format;
+use crate::{Format, Json};
 
 /// Why a text could not be read.
 #[derive(Debug, thiserror::Error)]
@@ -54,6 +54,8 @@ pub enum Error {
 pub struct FeatureError {
     /// Number of the feature in the input, from 0.
     pub feature: usize,
+    /// Its identifier, as far as it could be read.
+    pub id: Option<Json>,
     /// What is wrong.
     #[source]
     pub error: Error,

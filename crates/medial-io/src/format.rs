@@ -16,6 +16,8 @@ pub enum Format {
     Json,
     /// Well-known text, one geometry after the other.
     Wkt,
+    /// Well-known binary, one geometry after the other, or a line of hexadecimal digits each.
+    Wkb,
     /// Comma-separated values, a row a path.
     Csv,
     /// A vector picture.
@@ -31,6 +33,7 @@ const NAMES: &[(Format, &str, &[&str])] = &[
     (Format::GeoJsonLines, "geojsonl", &["geojsonl", "geojsons", "geojsonseq", "ndgeojson"]),
     (Format::Json, "json", &["json", "jsonl", "ndjson"]),
     (Format::Wkt, "wkt", &["wkt"]),
+    (Format::Wkb, "wkb", &["wkb"]),
     (Format::Csv, "csv", &["csv"]),
     (Format::Svg, "svg", &["svg"]),
     (Format::Png, "png", &["png"]),
@@ -67,23 +70,28 @@ impl Format {
             .ok_or_else(|| unknown(&extension))
     }
 
-    /// The format of a text, told by its beginning: JSON by its `type`, else WKT.
+    /// The format of an input, told by its beginning: JSON by its `type`, else WKB or WKT.
     ///
     /// # Errors
-    /// If the text is empty or begins like none of them.
-    pub fn of_text(text: &str) -> Result<Content, Error> {
+    /// If the input is empty or begins like none of them.
+    pub fn of_content(bytes: &[u8]) -> Result<Content, Error> {
+        if let [0 | 1, ..] = bytes {
+            return Ok(Content::Polygons(Self::Wkb));
+        }
+        let text = crate::text(bytes)?;
         let start = text.trim_start_matches(|c: char| c.is_whitespace() || c == '\u{1e}');
         match start.as_bytes().first() {
             None => Err(Error::Empty),
             Some(b'[') => Ok(Content::Polygons(Self::Rings)),
             Some(b'{') => of_json(text, start),
+            Some(b'0') => Ok(Content::Polygons(Self::Wkb)),
             Some(c) if c.is_ascii_alphabetic() => Ok(Content::Polygons(Self::Wkt)),
             Some(_) => Err(Error::Unknown),
         }
     }
 }
 
-/// What a text holds.
+/// What an input holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Content {
     /// Polygons, in this format.
@@ -143,7 +151,7 @@ mod tests {
 
     #[test]
     fn content_is_told_by_its_beginning() {
-        let of = |text: &str| Format::of_text(text).ok();
+        let of = |text: &str| Format::of_content(text.as_bytes()).ok();
         assert_eq!(of("[[[0,0]]]"), Some(Content::Polygons(Format::Rings)));
         assert_eq!(of(" POLYGON((0 0))"), Some(Content::Polygons(Format::Wkt)));
         let collection = "{\"features\":[],\n\"type\":\"FeatureCollection\"}";
@@ -152,7 +160,9 @@ mod tests {
         assert_eq!(of(lines), Some(Content::Polygons(Format::GeoJsonLines)));
         assert_eq!(of("{\"version\":1,\"type\":\"MedialAxis\"}"), Some(Content::Axes));
         assert_eq!(of("{\"a\":1}"), None);
-        assert_eq!(of("\u{0}"), None);
-        assert!(matches!(Format::of_text(" \n"), Err(Error::Empty)));
+        assert_eq!(of("\u{2}"), None);
+        assert_eq!(of("\u{1}\u{3}"), Some(Content::Polygons(Format::Wkb)));
+        assert_eq!(of("0103"), Some(Content::Polygons(Format::Wkb)));
+        assert!(matches!(Format::of_content(b" \n"), Err(Error::Empty)));
     }
 }

@@ -1,8 +1,23 @@
 //! Formats for the medial axis toolkit.
 //!
 //! One module a format, text or bytes in and out; no file is touched here.
-//! [`read`] gives the features of a text in any format that holds polygons,
+//! [`read`] gives the features of an input in any format that holds polygons,
 //! [`axis_document::read`] the axes of a document, and each format's `write` the rest.
+//!
+//! ```
+//! use medial::domain::{Domain, Options};
+//! use medial::engine::path_tracing;
+//! use medial_io::{Drawing, Format, read, wkt};
+//!
+//! let layer = read(Format::Wkt, b"POLYGON ((0 0, 4 0, 4 2, 0 2, 0 0))")?;
+//! for feature in layer {
+//!     let domain = Domain::from_polygons(&feature?.polygons, &Options::default())?;
+//!     let axis = path_tracing(&domain)?;
+//!     let lines = wkt::write(&axis, Drawing::default());
+//!     assert!(lines.contains("(1 1, 3 1)"), "the spine of the rectangle");
+//! }
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 //!
 //! Every double is read exactly and written as the shortest text that reads back to it.
 
@@ -23,6 +38,7 @@ pub mod geojson;
 pub mod png;
 pub mod rings;
 pub mod svg;
+pub mod wkb;
 pub mod wkt;
 
 pub use error::{Error, FeatureError};
@@ -31,17 +47,18 @@ pub use format::{Content, Format, UnknownFormat};
 pub use path::{Drawing, default_tolerance};
 pub use text::text;
 
-/// Reads the features of a text in a format that holds polygons.
+/// Reads the features of the bytes of a format that holds polygons.
 ///
 /// # Errors
-/// If the format holds no polygons, or the text as a whole is not of that format. What is wrong
+/// If the format holds no polygons, or the bytes as a whole are not of that format. What is wrong
 /// with one feature only is an item of the layer.
-pub fn read(format: Format, text: &str) -> Result<Layer<'_>, Error> {
+pub fn read(format: Format, bytes: &[u8]) -> Result<Layer<'_>, Error> {
     match format {
-        Format::GeoJson => geojson::read(text),
-        Format::GeoJsonLines => Ok(geojson::read_lines(text)),
-        Format::Wkt => Ok(wkt::read(text)),
-        Format::Rings => rings::read(text),
+        Format::GeoJson => geojson::read(text(bytes)?),
+        Format::GeoJsonLines => Ok(geojson::read_lines(text(bytes)?)),
+        Format::Wkt => Ok(wkt::read(text(bytes)?)),
+        Format::Wkb => wkb::read(bytes),
+        Format::Rings => rings::read(text(bytes)?),
         other => Err(Error::Unreadable { format: other }),
     }
 }

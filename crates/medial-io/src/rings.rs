@@ -31,7 +31,7 @@ pub fn read(text: &str) -> Result<Layer<'_>, Error> {
     }
     let len = Some(arrays.len());
     let features = arrays.into_iter().enumerate().map(move |(index, part)| {
-        polygon(text, part, index).map_err(|error| FeatureError { feature: index, error })
+        polygon(text, part, index).map_err(|error| FeatureError { feature: index, id: None, error })
     });
     Ok(Layer { len, ..Layer::new(features) })
 }

@@ -14,3 +14,8 @@ pub mod axis;
 pub mod engine;
 
 pub mod check;
+
+/// Runs the lines of Rust in the README.
+#[cfg(doctest)]
+#[doc = include_str!("../../../README.md")]
+struct Readme;

@@ -75,7 +75,8 @@ fn output_format(args: &AxisArgs) -> Result<Format, Failure> {
     };
     let usage = |why: String| Err(Failure::Usage(why));
     let picture = matches!(format, Format::Svg | Format::Png);
-    let lines = matches!(format, Format::GeoJson | Format::GeoJsonLines | Format::Wkt);
+    let lines =
+        matches!(format, Format::GeoJson | Format::GeoJsonLines | Format::Wkt | Format::Wkb);
     if format == Format::Rings {
         return usage("rings hold polygons, no axes; see --to in --help".to_owned());
     }
@@ -83,13 +84,14 @@ fn output_format(args: &AxisArgs) -> Result<Format, Failure> {
         return usage(format!("--draw is for svg and png, not for {format}"));
     }
     if args.z.is_some() && !lines && format != Format::Csv {
-        return usage(format!("--z is for geojson, geojsonl, wkt and csv, not for {format}"));
+        return usage(format!("--z is for geojson, geojsonl, wkt, wkb and csv, not for {format}"));
     }
     if args.keypoints && format == Format::Csv {
         return usage("--keypoints is not for csv, which has a row for each path".to_owned());
     }
-    if format == Format::Png && file.is_none() && std::io::stdout().is_terminal() {
-        return usage("a terminal shows no png; name a file with -o".to_owned());
+    let binary = matches!(format, Format::Png | Format::Wkb);
+    if binary && file.is_none() && std::io::stdout().is_terminal() {
+        return usage(format!("a terminal shows no {format}; name a file with -o"));
     }
     Ok(format)
 }

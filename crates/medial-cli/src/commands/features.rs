@@ -119,8 +119,9 @@ fn process<R>(
     };
     let feature = match item {
         Ok(feature) => feature,
-        Err(FeatureError { feature, error }) => {
+        Err(FeatureError { feature, id, error }) => {
             outcome.index = feature;
+            outcome.id = id;
             outcome.entries.push(Entry::refused("malformed", error.to_string()));
             return outcome;
         }
@@ -208,7 +209,6 @@ fn summary(report: &Report, input: &Input, progress: &Progress) -> Status {
 
 /// Reads the layer of polygons of an input.
 pub fn layer<'a>(input: &'a Input, path: &Path, common: &Common) -> Result<Layer<'a>, Failure> {
-    let text = input.text()?;
-    let format = crate::input::polygon_format(input, path, common.from, text)?;
-    medial_io::read(format, text).map_err(|error| input.wrong(error))
+    let format = crate::input::polygon_format(input, path, common.from)?;
+    medial_io::read(format, input.bytes()).map_err(|error| input.wrong(error))
 }

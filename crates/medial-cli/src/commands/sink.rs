@@ -3,7 +3,7 @@ use crate::output::Output;
 use medial::axis::MedialAxis;
 use medial::domain::Domain;
 use medial_io::svg::{Options, Scene};
-use medial_io::{Drawing, Feature, Format, Json, axis_document, csv, geojson, png, svg, wkt};
+use medial_io::{Drawing, Feature, Format, Json, axis_document, csv, geojson, png, svg, wkb, wkt};
 use std::path::Path;
 
 /// Where axes go, in one format.
@@ -19,7 +19,7 @@ pub struct Sink {
 
 /// What a thread makes of an axis, for the sink.
 pub enum Chunk {
-    Text(String),
+    Bytes(Vec<u8>),
     Scene(Box<Scene>),
 }
 
@@ -31,7 +31,7 @@ pub fn encode(
     domain: &Domain,
     axis: MedialAxis,
 ) -> Chunk {
-    Chunk::Text(match format {
+    let text = match format {
         Format::GeoJson => geojson::features(feature, &axis, drawing),
         Format::GeoJsonLines => geojson::feature_lines(feature, &axis, drawing),
         Format::Wkt => wkt::write(&axis, drawing),
@@ -39,8 +39,10 @@ pub fn encode(
         Format::Svg | Format::Png => {
             return Chunk::Scene(Box::new(Scene { boundary: boundary(domain), axis }));
         }
+        Format::Wkb => return Chunk::Bytes(wkb::write(&axis, drawing)),
         _ => axis_document::write(feature, &axis),
-    })
+    };
+    Chunk::Bytes(text.into_bytes())
 }
 
 fn boundary(domain: &Domain) -> Vec<Vec<medial::geom::Point>> {
@@ -72,14 +74,14 @@ impl Sink {
     pub fn add(&mut self, chunk: Chunk) -> Result<(), Failure> {
         match chunk {
             Chunk::Scene(scene) => self.scenes.push(*scene),
-            Chunk::Text(text) if text.is_empty() => {}
-            Chunk::Text(text) => {
+            Chunk::Bytes(bytes) if bytes.is_empty() => {}
+            Chunk::Bytes(bytes) => {
                 self.begin()?;
                 if !self.separated {
                     self.output.write(b",\n")?;
                 }
                 self.separated = self.format != Format::GeoJson;
-                self.output.write(text.as_bytes())?;
+                self.output.write(&bytes)?;
             }
         }
         Ok(())

@@ -60,15 +60,17 @@ pub fn read_lines(text: &str) -> Layer<'_> {
 }
 
 fn feature(text: &str, part: &str, index: usize) -> Result<Feature, FeatureError> {
-    read_feature(text, part, index).map_err(|error| FeatureError { feature: index, error })
+    let mut feature = Feature::numbered(index);
+    match read_feature(text, part, &mut feature) {
+        Ok(()) => Ok(feature),
+        Err(error) => Err(FeatureError { feature: index, id: feature.id, error }),
+    }
 }
 
-fn read_feature(text: &str, part: &str, index: usize) -> Result<Feature, Error> {
+fn read_feature(text: &str, part: &str, feature: &mut Feature) -> Result<(), Error> {
     let object = parse_object(text, part)?;
-    let mut feature = Feature::numbered(index);
     if object.kind != "Feature" {
-        read_geometry(text, part, &object, &mut feature, 0)?;
-        return Ok(feature);
+        return read_geometry(text, part, &object, feature, 0);
     }
     feature.id = object.id.map(ToOwned::to_owned);
     if let Some(properties) = object.properties {
@@ -77,11 +79,11 @@ fn read_feature(text: &str, part: &str, index: usize) -> Result<Feature, Error> 
     match object.geometry {
         Some(raw) => {
             let geometry = parse_object(text, raw.get())?;
-            read_geometry(text, raw.get(), &geometry, &mut feature, 0)?;
+            read_geometry(text, raw.get(), &geometry, feature, 0)?;
         }
         None => feature.geometry = "without a geometry".to_owned(),
     }
-    Ok(feature)
+    Ok(())
 }
 
 /// A JSON object; the parser alone would take an array for one.

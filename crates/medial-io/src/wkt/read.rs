@@ -22,7 +22,7 @@ pub fn read(text: &str) -> Layer<'_> {
         let result = geometry(&mut scanner, &mut feature, 0);
         Some(result.map(|()| feature).map_err(|error| {
             scanner.skip_to_next_geometry();
-            FeatureError { feature: index - 1, error }
+            FeatureError { feature: index - 1, id: None, error }
         }))
     }))
 }

@@ -6,14 +6,31 @@ use dashu_int::IBig;
 
 use crate::geom::{Double, Point};
 
-/// Twice the signed area, in twice the precision of a double.
-pub(super) fn twice_area(points: impl Iterator<Item = Point>) -> Double {
-    let mut sum = Double::ZERO;
-    for_edges(points, |a, b| {
-        sum = sum + Double::from(a.x) * Double::from(b.y) - Double::from(b.x) * Double::from(a.y);
+/// Twice the signed area, right to well over 53 bits.
+pub(super) fn twice_area(points: &[Point]) -> Double {
+    let Some(&origin) = points.first() else { return Double::ZERO };
+    let from_origin =
+        |p: Point| (Double::difference(p.x, origin.x), Double::difference(p.y, origin.y));
+    let (mut sum, mut size) = (Double::ZERO, 0.0);
+    for_edges(points.iter().copied(), |a, b| {
+        let ((ax, ay), (bx, by)) = (from_origin(a), from_origin(b));
+        let (left, right) = (ax * by, bx * ay);
+        sum = sum + left - right;
+        size += left.value().abs() + right.value().abs();
     });
-    sum
+    if sum.value().abs() > CANCELLATION * (points.len() as f64) * size {
+        return sum;
+    }
+    let exact = exact_twice_area(points).to_f64().value();
+    Double::from(exact * SCALE)
 }
+
+/// Share of the sum of all terms below which `Double` no longer gives 53 bits: it adds with a
+/// relative error of about 2^-100.
+const CANCELLATION: f64 = 1.0 / (1u64 << 44) as f64;
+
+/// 2^-504, the unit of exact areas.
+const SCALE: f64 = f64::from_bits((1023 - 504) << 52);
 
 /// The exact sign of the area: `Greater` for a counterclockwise ring.
 pub(super) fn orientation(points: &[Point]) -> Ordering {
@@ -86,7 +103,16 @@ mod tests {
     fn the_area_of_a_small_square_far_away_is_exact() {
         let (o, s) = (2f64.powi(40) + 0.5, 2f64.powi(-10));
         let square = [p(o, o), p(o + s, o), p(o + s, o + s), p(o, o + s)];
-        assert_eq!(twice_area(square.iter().copied()).value(), 2.0 * s * s);
+        assert_eq!(twice_area(&square).value(), 2.0 * s * s);
+    }
+
+    #[test]
+    fn the_area_of_a_speck_on_a_long_line_is_exact() {
+        // (t, t + u), (t + u, t), (2t, 0): the determinant is exactly -u².
+        let (t, s) = (0.1_f64, 0.1_f64.next_up());
+        let speck = [p(t, s), p(s, t), p(2.0 * t, 0.0)];
+        assert_eq!(twice_area(&speck).value(), -(s - t) * (s - t));
+        assert_eq!(exact_size(&speck), IBig::ONE << (504 - 2 * 56));
     }
 
     #[test]

@@ -186,7 +186,27 @@ impl fmt::Display for NestingFault {
 }
 
 impl DomainError {
-    /// The reason code, from a closed list: see the variants.
+    /// All reason codes.
+    pub const CODES: [&str; 16] = [
+        "not_finite",
+        "exponent_out_of_range",
+        "empty",
+        "too_few_points",
+        "collinear",
+        "spike",
+        "crossing",
+        "overlap",
+        "bad_nesting",
+        "polygons_overlap",
+        "self_touch",
+        "bridge",
+        "cut_interior",
+        "shared_edge",
+        "too_large",
+        "internal",
+    ];
+
+    /// The reason code, one of [`CODES`](Self::CODES).
     #[must_use]
     pub const fn code(&self) -> &'static str {
         match self {
@@ -331,5 +351,42 @@ struct Shown(Point);
 impl fmt::Display for Shown {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "({}, {})", self.0.x, self.0.y)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_error_has_its_own_code_and_says_what_to_do() {
+        let place = |ring, index| Place { polygon: 0, ring, index, lone: true };
+        let (at, first, second) = (place(1, 4), place(0, 2), place(1, 3));
+        let point = Point::new(0.5, 2.0);
+        let all = [
+            DomainError::NotFinite { at, x: f64::NAN, y: 0.0 },
+            DomainError::ExponentOutOfRange { at, x: 1e300, y: 0.0 },
+            DomainError::Empty { at },
+            DomainError::TooFewPoints { at, found: 2 },
+            DomainError::Collinear { at },
+            DomainError::Spike { at },
+            DomainError::Crossing { first, second, at: point },
+            DomainError::Overlap { first, second, at: point },
+            DomainError::BadNesting { ring: at, fault: NestingFault::HoleOutside, other: first },
+            DomainError::PolygonsOverlap { first, second, at: point },
+            DomainError::SelfTouch { first, second, at: point },
+            DomainError::Bridge { first, second },
+            DomainError::CutInterior { at, parts: 2 },
+            DomainError::SharedEdge { first, second, at: point },
+            DomainError::TooLarge { found: 1 << 31 },
+            DomainError::Internal { stage: "sweep" },
+        ];
+        assert_eq!(all.map(|e| e.code()), DomainError::CODES);
+        for error in all {
+            let message = error.to_string();
+            assert!(message.contains("; ") && !message.ends_with('.'), "{message}");
+            let named = message.contains(", vertex ") || message.contains(", edge ");
+            assert_eq!(error.index().is_some(), named, "{message}");
+        }
     }
 }

@@ -51,6 +51,7 @@ impl Sweep<'_, '_> {
         }
         // Arriving rays describe the pieces before this point.
         let left: Vec<Ray> = arriving.iter().rev().map(|&e| self.ray(e, p, false)).collect();
+        // At most four: `order_run` refuses more edges on one another.
         let mut cut: Vec<u32> = Vec::new();
         for &edge in &through {
             let polygon = self.segment(edge).polygon;
@@ -200,8 +201,16 @@ impl Sweep<'_, '_> {
             (false, true) => 2,
         };
         run.sort_by_key(|&e| rank(e));
-        let single: Vec<(u8, u32)> =
-            run.iter().map(|&e| (rank(e), e)).filter(|e| e.0 != 1).collect();
+        let (bridged, single): (Vec<_>, Vec<_>) =
+            run.iter().map(|&e| (rank(e), e)).partition(|e| e.0 == 1);
+        // Two polygons may share an edge, and one of them have a bridge there; more could make
+        // every event on the line as costly as their number.
+        for list in [&bridged, &single] {
+            if let &[one, _, other, ..] = &list[..] {
+                let (first, second) = self.places(one.1, other.1);
+                return Err(DomainError::PolygonsOverlap { first, second, at: p });
+            }
+        }
         for pair in single.windows(2) {
             let [one, other] = [pair[0], pair[1]];
             let (first, second) = self.places(one.1, other.1);

@@ -1,4 +1,9 @@
 //! The shape: rings of doubles, validated once, as boundary walks with the interior on the left.
+//!
+//! `rings` cleans and directs each ring by itself; `sweep` and `junction` find how edges meet;
+//! `nesting` tells outer rings from holes if asked to; `assemble` links what is left into walks,
+//! which `walks` turns into a [`Domain`]. What was changed is in the [`Report`], and why a feature
+//! is refused in the [`DomainError`].
 
 mod area;
 mod assemble;

@@ -44,9 +44,7 @@ impl Domain {
     #[must_use]
     pub fn behind(&self, site: Site) -> Site {
         let edge = self.edge(site.index());
-        if !site.is_edge() {
-            Site::edge(edge.prev)
-        } else if edge.corner == Corner::Convex {
+        if !site.is_edge() || edge.corner == Corner::Convex {
             Site::edge(edge.prev)
         } else {
             Site::corner(site.index())

@@ -225,16 +225,14 @@ impl Domain {
         parts
     }
 
-    /// Area of the domain, in squared units of the input: summed in twice the precision of a
-    /// double, then rounded.
+    /// Area of the domain, in squared units of the input, rounded once or twice.
     #[must_use]
     pub fn area(&self) -> f64 {
         let walks = 0..self.walks.len() as u32;
         0.5 * walks.fold(Double::ZERO, |sum, walk| sum + self.twice_area(walk)).value()
     }
 
-    /// Area that one walk encloses, negative if it surrounds a hole; summed in twice the
-    /// precision of a double, then rounded.
+    /// Area that one walk encloses, negative if it surrounds a hole; rounded once.
     #[must_use]
     pub fn signed_area(&self, walk: u32) -> f64 {
         0.5 * self.twice_area(walk).value()
@@ -243,7 +241,8 @@ impl Domain {
     fn twice_area(&self, walk: u32) -> Double {
         let Walk { first, len, .. } = self.walks[walk as usize];
         let edges = &self.edges[first as usize..(first + len) as usize];
-        twice_area(edges.iter().map(|e| e.start))
+        let points: Vec<Point> = edges.iter().map(|e| e.start).collect();
+        twice_area(&points)
     }
 }
 

@@ -282,8 +282,8 @@ impl TouchingDisk {
 fn touching_end(governors: &[Governor; 3]) -> Option<(usize, usize, usize)> {
     for corner in 0..3 {
         let Governor::Corner(p) = governors[corner] else { continue };
-        for edge in 0..3 {
-            if let Governor::Edge { start, end, .. } = governors[edge]
+        for (edge, governor) in governors.iter().enumerate() {
+            if let Governor::Edge { start, end, .. } = *governor
                 && (start == p || end == p)
             {
                 return Some((edge, corner, 3 - edge - corner));
@@ -377,7 +377,7 @@ mod tests {
             let disk = TouchingDisk::guess(&g, Point::default()).unwrap();
             let disk = disk.certified(&g).unwrap();
             let off = (disk.position() - Point::new(x, y)).norm() + (disk.radius - r).abs();
-            assert!(off <= 2.0 * disk.bound && disk.bound < 1e-13, "{disk:?}");
+            assert!(off <= 2.0 * disk.bound && disk.bound < 1e-13 * r, "{disk:?}");
         }
     }
 

@@ -4,5 +4,6 @@ mod accepted;
 mod agreement;
 mod brute;
 mod large;
+mod masks;
 mod refused;
 mod shapes;

@@ -1,7 +1,7 @@
 use medial::domain::{Domain, DomainError, NestingFault, Options};
 use medial::geom::Point;
 
-use crate::shapes::{STRICT, error, rings, strict_error};
+use crate::shapes::{REGROUP, STRICT, error, rings, strict_error};
 
 #[test]
 fn a_coordinate_that_is_not_finite_names_its_vertex() {
@@ -169,4 +169,14 @@ fn messages_of_features_with_several_polygons_name_the_polygon() {
         e.to_string(),
         "polygon 1, ring 0, edge 0: crosses polygon 1, ring 0, edge 2 at (7, 7); repair the polygon"
     );
+}
+
+#[test]
+fn more_than_two_polygons_on_one_edge_are_refused_when_regrouped_too() {
+    let polygons =
+        [rings("0 0 4 0 2 1"), rings("0 0 4 0 2 2"), rings("0 0 4 0 2 3"), rings("0 0 4 0 2 -1")];
+    for options in [Options::default(), REGROUP] {
+        let e = Domain::from_polygons(&polygons, &options).expect_err("overlap");
+        assert_eq!(e.code(), "polygons_overlap");
+    }
 }

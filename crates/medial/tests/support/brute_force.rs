@@ -211,7 +211,7 @@ fn maximal(domain: &Domain, disk: &ExactDisk, three: [Site; 3], all: &[Site]) ->
         if site.is_edge() {
             let (a, b) = (domain.edge(site.index()).start, domain.end(site.index()));
             if disk.front(a, b).is_lt() {
-                // From behind an edge governs nothing, but it may show that the centre lies outside.
+                // Seen from behind it governs nothing, but may still cut.
                 if disk.side(Element::Edge(b, a)).is_lt() {
                     return None;
                 }

@@ -82,17 +82,23 @@ struct Pocket {
 impl Pocket {
     fn new(domain: &Domain, gap: &Gap, found: &Found) -> Self {
         let origin = gap.start.centre;
-        let foot = |site: Site, centre: Point| match domain.governor(site) {
+        let length = |p: Point| p.x.abs() + p.y.abs();
+        // How far away numbers come from that enter the outline.
+        let mut reach: f64 = 0.0;
+        let mut foot = |site: Site, centre: Point| match domain.governor(site) {
             Governor::Corner(p) => p - origin,
             Governor::Edge { start, direction, .. } => {
                 let from = start - origin;
+                reach = reach.max(length(from));
                 from + direction * direction.dot(centre - from)
             }
         };
         let c0 = Point::default();
-        let (c1, radius) = match found {
-            Found::Corner(edge) => (domain.edge(*edge).start - origin, 0.0),
-            Found::Disk { disk, .. } => (disk.centre + (disk.origin - origin), disk.radius),
+        let (c1, radius, doubt) = match found {
+            Found::Corner(edge) => (domain.edge(*edge).start - origin, 0.0, 0.0),
+            Found::Disk { disk, .. } => {
+                (disk.centre + (disk.origin - origin), disk.radius, disk.bound)
+            }
         };
         let outline = [
             c0,
@@ -102,9 +108,9 @@ impl Pocket {
             foot(gap.left, c1),
             foot(gap.left, c0),
         ];
-        let extent = outline.iter().map(|p| p.x.abs() + p.y.abs()).fold(0.0, f64::max);
-        let size = origin.x.abs() + origin.y.abs() + extent + radius;
-        let margin = 1e-9 * extent + 64.0 * f64::EPSILON * size;
+        let extent = outline.iter().map(|&p| length(p)).fold(0.0, f64::max);
+        let size = length(origin) + extent + radius + reach;
+        let margin = 1e-9 * extent + 64.0 * f64::EPSILON * size + 4.0 * (doubt + gap.start.doubt);
         let mut bounds = outline.iter().fold(Rect::EMPTY, |b, &p| b.with(p + origin));
         bounds.min = bounds.min - Point::new(margin, margin);
         bounds.max = bounds.max + Point::new(margin, margin);

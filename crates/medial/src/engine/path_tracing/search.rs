@@ -66,6 +66,16 @@ pub(super) struct Gap {
     pub front: Option<Front>,
 }
 
+/// What a probe sees.
+enum Look {
+    /// A third governor.
+    Hit(Proposal),
+    /// The disk is cut by what makes no third governor, or does not exist.
+    Blocked,
+    /// Nothing.
+    Clear,
+}
+
 /// Tries before only exact arithmetic proposes.
 const FLOATING_TRIES: usize = 48;
 
@@ -205,41 +215,49 @@ impl<'a> Search<'a> {
             shorter(length(gap.right).unwrap_or(1.0), length(gap.left)) / 2.0
         };
         let limit = self.limit(gap);
-        let mut growing = true;
+        // Up to where the disks seen are clear, and where the first one is cut by what makes no
+        // third governor, or does not exist.
+        let (mut clear, mut blocked) = (0.0, f64::INFINITY);
         // Doubling exponents end long before this.
         for _ in 0..1100 {
-            let mut position = reach;
-            if best.is_some_and(|b| b.position <= position + reach) || !position.is_finite() {
-                break;
+            if best.is_some_and(|b| b.position <= 2.0 * reach) || !reach.is_finite() {
+                return best;
             }
-            let at_limit = limit.filter(|l| l.1 <= position);
-            let disk = match at_limit {
-                Some((disk, end)) => {
-                    position = end;
-                    Some(disk)
-                }
-                None => gap.course.disk_at(position),
-            };
-            let Some(disk) = disk else {
-                // The governors meet before that.
-                growing = false;
-                reach /= 2.0;
-                if reach <= 1e-12 * gap.start.radius {
-                    break;
-                }
-                continue;
-            };
-            let mut verify = Verify::hunting(self, gap, disk, position);
-            verify.run();
-            if let Some(hit) = verify.best() {
-                return Some(hit);
+            let at_limit = limit.filter(|l| l.1 <= reach);
+            let position = at_limit.map_or(reach, |l| l.1);
+            let disk = at_limit.map_or_else(|| gap.course.disk_at(position), |l| Some(l.0));
+            match self.look(gap, disk, position) {
+                Look::Hit(hit) => return Some(hit),
+                Look::Clear if blocked == f64::INFINITY => clear = position,
+                Look::Clear => {}
+                Look::Blocked => blocked = blocked.min(position),
             }
-            if !growing || at_limit.is_some() {
+            if at_limit.is_some() || disk.is_none() {
                 break;
             }
             reach *= 4.0;
         }
+        // What blocks the path lies between two probes.
+        while blocked < f64::INFINITY && blocked - clear > 1e-9 * (blocked + gap.start.radius) {
+            let position = (clear + blocked) / 2.0;
+            match self.look(gap, gap.course.disk_at(position), position) {
+                Look::Hit(hit) => return Some(hit),
+                Look::Clear => clear = position,
+                Look::Blocked => blocked = position,
+            }
+        }
         best
+    }
+
+    fn look(&self, gap: &Gap, disk: Option<TouchingDisk>, position: f64) -> Look {
+        let Some(disk) = disk else { return Look::Blocked };
+        let mut verify = Verify::hunting(self, gap, disk, position);
+        verify.run();
+        match verify.best() {
+            Some(hit) => Look::Hit(hit),
+            None if verify.is_cut() => Look::Blocked,
+            None => Look::Clear,
+        }
     }
 
     /// Where the path leaves the zone of a governor, whatever stands there.

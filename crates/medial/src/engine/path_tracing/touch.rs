@@ -7,7 +7,7 @@ use crate::geom::predicates::{Element, ExactDisk};
 /// What an edge, with its ends, is to a disk.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Touch {
-    /// Outside, or seen from behind.
+    /// Outside, or touched from behind.
     Clear,
     /// The disk is cut, and this part of the edge is nearest to its centre: the edge itself, or
     /// the corner at one of its ends.
@@ -33,8 +33,11 @@ pub(super) fn touch(domain: &Domain, disk: &ExactDisk, edge: u32) -> Touch {
         return touch_end(domain, disk, edge, b, domain.edge(edge).next, from_end == Equal);
     }
     match disk.front(a, b) {
-        // What lies between the centre and the back of an edge is asked itself.
-        Less => Touch::Clear,
+        // From behind nothing is touched, but a disk far too large may hold the edge.
+        Less => match disk.side(Element::Edge(b, a)) {
+            Less => Touch::Cut(Site::edge(edge)),
+            Equal | Greater => Touch::Clear,
+        },
         Equal => Touch::Cut(Site::edge(edge)),
         Greater => match disk.side(Element::Edge(a, b)) {
             Less => Touch::Cut(Site::edge(edge)),

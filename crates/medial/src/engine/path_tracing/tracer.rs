@@ -235,12 +235,17 @@ impl<'a> Tracer<'a> {
     /// The axis: every position computed once more, as precisely as promised.
     pub fn finish(self) -> Result<MedialAxis, EngineError> {
         let domain = self.domain;
-        let mut used: Vec<Site> = self.contacts.clone();
-        used.sort_unstable();
-        used.dedup();
+        // Sites that govern something, numbered in boundary order.
         let mut number = vec![u32::MAX; 2 * domain.edges().len()];
-        for (k, site) in used.iter().enumerate() {
-            number[site.0 as usize] = k as u32;
+        for site in &self.contacts {
+            number[site.0 as usize] = 0;
+        }
+        let mut used: Vec<Site> = Vec::new();
+        for (site, slot) in (0_u32..).map(Site).zip(&mut number) {
+            if *slot == 0 {
+                *slot = used.len() as u32;
+                used.push(site);
+            }
         }
         let number = |s: &Site| number[s.0 as usize];
         let governors: Vec<u32> = self.contacts.iter().map(number).collect();

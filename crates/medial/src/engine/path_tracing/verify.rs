@@ -96,6 +96,11 @@ impl<'s, 'a> Verify<'s, 'a> {
         self.best
     }
 
+    /// Whether anything met cuts the first disk looked into.
+    pub fn is_cut(&self) -> bool {
+        !self.cut.is_empty()
+    }
+
     pub fn run(&mut self) {
         self.search.tree.visit(self);
     }
@@ -121,11 +126,9 @@ impl<'s, 'a> Verify<'s, 'a> {
 
     /// Takes note of an edge that cuts the disk looked into.
     fn cuts(&mut self, edge: u32) {
-        if !self.hunting {
-            self.cut.push(edge);
-            if !self.floating {
-                return;
-            }
+        self.cut.push(edge);
+        if !self.floating {
+            return;
         }
         for site in self.sites_of(edge) {
             let Some(p) = self.search.propose(self.gap, site) else { continue };
@@ -243,7 +246,7 @@ impl<'s, 'a> Verify<'s, 'a> {
             let q = self.certified.centre - a;
             let x = direction.dot(q);
             let doubt = self.doubt(a, q);
-            (x.abs() > doubt).then(|| if x > 0.0 { Ordering::Greater } else { Ordering::Less })
+            (x.abs() > doubt).then_some(if x > 0.0 { Ordering::Greater } else { Ordering::Less })
         };
         (side(domain.edge(edge).start), side(domain.end(edge)))
     }

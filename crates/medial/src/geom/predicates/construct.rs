@@ -26,7 +26,7 @@ pub(super) fn corners_first([a, b, c]: [Element; 3]) -> [Element; 3] {
 }
 
 /// A point every form below may use as origin: a corner that touches, or an end of the first edge.
-pub(super) fn local_origin(elements: &[Element; 3]) -> Point {
+fn local_origin(elements: &[Element; 3]) -> Point {
     match elements {
         [Element::Corner(p), ..] => *p,
         // An end shared with another edge makes its distance to both of them zero.
@@ -42,9 +42,12 @@ pub(super) fn local_origin(elements: &[Element; 3]) -> Point {
 }
 
 /// The disk touching the elements, which are in the order [`corners_first`] gives.
-///
-/// `grid` has the origin [`local_origin`] gives and holds all the points.
-pub(super) fn construct(elements: &[Element; 3], grid: Grid) -> Option<Homogeneous> {
+pub(super) fn construct(elements: &[Element; 3]) -> Option<Homogeneous> {
+    let points = elements.map(|element| match element {
+        Element::Corner(p) => [p, p],
+        Element::Edge(a, b) => [a, b],
+    });
+    let grid = Grid::new(local_origin(elements), points.as_flattened());
     let through_origin = matches!(elements[0], Element::Corner(_));
     let Form { tower, x, y, w, radius } = form(elements, grid)?;
     Some(Homogeneous { grid, through_origin, tower, x, y, w, radius })

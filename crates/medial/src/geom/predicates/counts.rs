@@ -13,6 +13,8 @@ pub struct Counts {
     pub corners: u64,
     /// Four edges, by minors of 256 bits.
     pub edges: u64,
+    /// A disk on the normal at the end of an edge, by a form with at most one root.
+    pub transitions: u64,
     /// Which of two governors leaves a path first.
     pub two_ends: u64,
     /// Exact disks built.
@@ -23,7 +25,7 @@ pub struct Counts {
 
 thread_local! {
     static COUNTS: Cell<Counts> = const {
-        Cell::new(Counts { structure: 0, rounded: 0, corners: 0, edges: 0, two_ends: 0, disks: 0, tower: 0 })
+        Cell::new(Counts { structure: 0, rounded: 0, corners: 0, edges: 0, transitions: 0, two_ends: 0, disks: 0, tower: 0 })
     };
 }
 

@@ -1,14 +1,16 @@
 //! The exact disk and the questions it answers.
 
 use std::cmp::Ordering;
+use std::sync::OnceLock;
 
 use super::Element;
-use super::construct::{construct, corners_first, local_origin};
-use super::counts::{Counts, count};
-use super::grid::Grid;
+use super::construct::{construct, corners_first};
+use super::counts::count;
+use super::grid::Vector;
 use super::homogeneous::Homogeneous;
 use super::near::Near;
 use super::stages::special_side;
+use super::transition;
 use crate::geom::Point;
 
 /// The disk that touches three elements, its contacts counterclockwise in the order given.
@@ -25,11 +27,12 @@ use crate::geom::Point;
 /// ```
 #[derive(Clone, Debug)]
 pub struct ExactDisk {
-    /// What it touches, corners first.
+    /// What it touches, corners first. There is such a disk.
     elements: [Element; 3],
     /// The same disk in doubles.
     near: Near,
-    form: Homogeneous,
+    /// The same disk in integers, once a question needs them.
+    form: OnceLock<Option<Homogeneous>>,
 }
 
 impl ExactDisk {
@@ -45,14 +48,15 @@ impl ExactDisk {
     #[must_use]
     pub fn new(elements: [Element; 3]) -> Option<Self> {
         let elements = corners_first(elements);
-        let points = elements.map(|element| match element {
-            Element::Corner(p) => [p, p],
-            Element::Edge(a, b) => [a, b],
-        });
-        let grid = Grid::new(local_origin(&elements), points.as_flattened());
-        let form = construct(&elements, grid)?;
+        let (near, form) = match Near::certified(&elements) {
+            Some(near) => (near, OnceLock::new()),
+            None => {
+                let form = construct(&elements)?;
+                (Near::new(&form), OnceLock::from(Some(form)))
+            }
+        };
         count(|counts| counts.disks += 1);
-        Some(Self { elements, near: Near::new(&form), form })
+        Some(Self { elements, near, form })
     }
 
     /// Orders the distance of the centre from a corner, or its signed distance from the supporting
@@ -75,16 +79,38 @@ impl ExactDisk {
         }
         rounded(self.near.side(element))
             .or_else(|| special_side(self.elements, element))
+            .or_else(|| match element {
+                Element::Corner(p) => on_normal(transition::side_of_corner(&self.elements, p)),
+                Element::Edge(..) => None,
+            })
             .unwrap_or_else(|| self.side_in_tower(element))
     }
 
     /// The side by the tower alone.
     pub(super) fn side_in_tower(&self, element: Element) -> Ordering {
+        self.in_tower(|form| match element {
+            Element::Corner(p) => form.side_of_corner(p),
+            Element::Edge(a, b) => form.side_of_line(a, b),
+        })
+    }
+
+    pub(super) fn front_in_tower(&self, a: Point, b: Point) -> Ordering {
+        self.in_tower(|form| form.front(a, b))
+    }
+
+    pub(super) fn along_in_tower(&self, a: Point, b: Point, p: Point) -> Ordering {
+        self.in_tower(|form| form.along(a, b, p))
+    }
+
+    /// An answer of the tower.
+    fn in_tower(&self, question: impl FnOnce(&Homogeneous) -> Ordering) -> Ordering {
         count(|counts| counts.tower += 1);
-        match element {
-            Element::Corner(p) => self.form.side_of_corner(p),
-            Element::Edge(a, b) => self.form.side_of_line(a, b),
-        }
+        // A disk that exists has integers.
+        self.form().map_or(Ordering::Equal, question)
+    }
+
+    fn form(&self) -> Option<&Homogeneous> {
+        self.form.get_or_init(|| construct(&self.elements)).as_ref()
     }
 
     fn edge_ending_at(&self, p: Point) -> Option<(Point, Point)> {
@@ -99,7 +125,8 @@ impl ExactDisk {
     #[must_use]
     pub fn front(&self, a: Point, b: Point) -> Ordering {
         rounded(self.near.product((b - a).perp(), a))
-            .unwrap_or_else(|| tower(|| self.form.front(a, b)))
+            .or_else(|| on_normal(transition::product_across(&self.elements, [a, b])))
+            .unwrap_or_else(|| self.front_in_tower(a, b))
     }
 
     /// Orders the centre against `p` along the direction from `a` to `b`: the sign of
@@ -109,7 +136,16 @@ impl ExactDisk {
     /// two walls of its zone.
     #[must_use]
     pub fn along(&self, a: Point, b: Point, p: Point) -> Ordering {
-        rounded(self.near.product(b - a, p)).unwrap_or_else(|| tower(|| self.form.along(a, b, p)))
+        // A corner that ends an edge is the contact of both.
+        if (p == a || p == b)
+            && [Element::Corner(p), Element::Edge(a, b)].iter().all(|e| self.elements.contains(e))
+        {
+            count(|counts| counts.structure += 1);
+            return Ordering::Equal;
+        }
+        rounded(self.near.product(b - a, p))
+            .or_else(|| on_normal(transition::product_along(&self.elements, [a, b], p)))
+            .unwrap_or_else(|| self.along_in_tower(a, b, p))
     }
 
     /// Orders the centres of two disks along the direction from `a` to `b`: the sign of
@@ -117,7 +153,7 @@ impl ExactDisk {
     #[must_use]
     pub fn compare_along(&self, other: &Self, a: Point, b: Point) -> Ordering {
         rounded(self.near.difference(&other.near, b - a))
-            .unwrap_or_else(|| tower(|| self.form.compare(&other.form, a, b, |along| along)))
+            .unwrap_or_else(|| self.compare_in_tower(other, a, b, |along| along))
     }
 
     /// Orders the centres of two disks across the direction from `a` to `b`: the sign of
@@ -125,7 +161,19 @@ impl ExactDisk {
     #[must_use]
     pub fn compare_across(&self, other: &Self, a: Point, b: Point) -> Ordering {
         rounded(self.near.difference(&other.near, (b - a).perp()))
-            .unwrap_or_else(|| tower(|| self.form.compare(&other.form, a, b, |along| along.perp())))
+            .unwrap_or_else(|| self.compare_in_tower(other, a, b, |along| along.perp()))
+    }
+
+    fn compare_in_tower(
+        &self,
+        other: &Self,
+        a: Point,
+        b: Point,
+        turn: impl FnOnce(Vector) -> Vector,
+    ) -> Ordering {
+        self.in_tower(|form| {
+            other.form().map_or(Ordering::Equal, |other| form.compare(other, a, b, turn))
+        })
     }
 
     /// The sign of `(p - c)×(q - c)`: `Greater` if from the centre `q` lies counterclockwise of `p`
@@ -142,17 +190,16 @@ impl ExactDisk {
     /// zero where the value is.
     #[must_use]
     pub fn approximate(&self) -> (Point, f64) {
-        self.form.nearest()
+        self.form().map_or_else(|| self.near.values(), Homogeneous::nearest)
     }
+}
+
+/// Notes an answer of the forms for a centre on the normal at an edge's end.
+fn on_normal(answer: Option<Ordering>) -> Option<Ordering> {
+    answer.inspect(|_| count(|counts| counts.transitions += 1))
 }
 
 /// Notes an answer of the doubles.
 fn rounded(answer: Option<Ordering>) -> Option<Ordering> {
     answer.inspect(|_| count(|counts| counts.rounded += 1))
-}
-
-/// Notes an answer of the tower.
-fn tower(answer: impl FnOnce() -> Ordering) -> Ordering {
-    count(|counts: &mut Counts| counts.tower += 1);
-    answer()
 }

@@ -6,7 +6,7 @@ use super::Element;
 use super::homogeneous::{Homogeneous, Radius};
 use super::rough::Rough;
 use super::tower::Surd;
-use crate::geom::Point;
+use crate::geom::{Governor, Point, TouchingDisk};
 
 /// Half an ulp of 1.
 const U: f64 = f64::EPSILON / 2.0;
@@ -34,6 +34,30 @@ pub(super) struct Near {
 }
 
 impl Near {
+    /// The disk touching three elements if doubles alone can prove that there is one.
+    pub(super) fn certified(elements: &[Element; 3]) -> Option<Self> {
+        let governors = elements.map(|element| match element {
+            Element::Corner(p) => Governor::Corner(p),
+            Element::Edge(start, end) => {
+                let d = end - start;
+                let length = d.norm();
+                let direction = Point::new(d.x / length, d.y / length);
+                Governor::Edge { start, end, direction }
+            }
+        });
+        let near = match elements[0] {
+            Element::Corner(p) | Element::Edge(p, _) => p,
+        };
+        let disk = TouchingDisk::guess(&governors, near)?.certified(&governors)?;
+        Some(Self {
+            origin: disk.origin,
+            centre: disk.centre,
+            radius: disk.radius,
+            error: disk.bound,
+        })
+    }
+
+    /// A disk given exactly.
     pub(super) fn new(disk: &Homogeneous) -> Self {
         let rough = |number: &Surd| Rough::scaled(number.coefficients(), disk.tower.roots());
         let root = |n| Rough::scaled(std::slice::from_ref(n), &[]).root();
@@ -52,6 +76,11 @@ impl Near {
             // The largest of the three would hide one that is not a number.
             error: x.error + y.error + r.error,
         }
+    }
+
+    /// Centre and radius, rounded.
+    pub(super) fn values(&self) -> (Point, f64) {
+        (self.origin + self.centre, self.radius)
     }
 
     /// The centre relative to a point, and a bound on the error of its coordinates.

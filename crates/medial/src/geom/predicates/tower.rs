@@ -209,6 +209,19 @@ impl Tower {
     }
 }
 
+/// The sign of `low + high·√radicand`, for a radicand that is not negative.
+pub(super) fn sign_with_root(low: &IBig, high: &IBig, radicand: &IBig) -> Ordering {
+    let (of_low, of_high) = (sign_of_integer(low), sign_of_integer(high));
+    if of_low == of_high || of_high.is_eq() || radicand.is_zero() {
+        return of_low;
+    }
+    if of_low.is_eq() {
+        return of_high;
+    }
+    let larger = (low * low).cmp(&(high * high * radicand));
+    if of_low.is_gt() { larger } else { larger.reverse() }
+}
+
 /// The order of an integer against zero.
 pub(super) fn sign_of_integer(value: &IBig) -> Ordering {
     if value.is_zero() {
@@ -258,4 +271,79 @@ fn sub(a: &[IBig], b: &[IBig]) -> Vec<IBig> {
         *to -= from;
     }
     difference
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn integer(value: i64) -> Surd {
+        Surd::integer(IBig::from(value))
+    }
+
+    #[test]
+    fn roots_of_squares_are_integers() {
+        let mut tower = Tower::default();
+        let root = tower.root(integer(49 << 12));
+        assert_eq!(root.coefficients(), [IBig::from(7 << 6)]);
+        assert!(tower.radicands().is_empty());
+    }
+
+    #[test]
+    fn equal_radicands_share_a_level() {
+        let mut tower = Tower::default();
+        let (a, b) = (tower.root(integer(3)), tower.root(integer(12)));
+        assert_eq!(tower.radicands().len(), 1);
+        assert_eq!(tower.sign(&a.scale(&IBig::from(2)).sub(&b)), Ordering::Equal);
+    }
+
+    #[test]
+    fn nested_roots_that_cancel_are_zero() {
+        // √(3 + 2√2) = 1 + √2
+        let mut tower = Tower::default();
+        let two = tower.root(integer(2));
+        let nested = two.scale(&IBig::from(2)).plus(&IBig::from(3));
+        let nested = tower.root(nested);
+        let difference = nested.sub(&two).plus(&IBig::NEG_ONE);
+        assert_eq!(tower.sign(&difference), Ordering::Equal);
+        // The smallest change shows, however long the numbers are.
+        let long = IBig::ONE << 3000;
+        let more = difference.scale(&long);
+        assert_eq!(tower.sign(&more.clone().plus(&IBig::ONE)), Ordering::Greater);
+        assert_eq!(tower.sign(&more.plus(&IBig::NEG_ONE)), Ordering::Less);
+    }
+
+    #[test]
+    fn dependent_roots_on_two_levels_cancel() {
+        // √2·√3 = √6
+        let mut tower = Tower::default();
+        let [two, three, six] = [2, 3, 6].map(|n| tower.root(integer(n)));
+        let product = tower.mul(&two, &three);
+        assert_eq!(tower.sign(&product.sub(&six)), Ordering::Equal);
+        assert_eq!(tower.sign(&six.sub(&two).sub(&three)), Ordering::Less);
+    }
+
+    #[test]
+    fn elements_keep_their_value_in_another_tower() {
+        // √5 + √7 with the roots met in the other order.
+        let (mut first, mut second) = (Tower::default(), Tower::default());
+        let [a, b] = [5, 7].map(|n| first.root(integer(n)));
+        let a = a.add(&b);
+        let [c, d] = [7, 5].map(|n| second.root(integer(n)));
+        let b = c.add(&d);
+        let roots = first.adjoin(&second);
+        assert_eq!(first.radicands().len(), 2);
+        assert_eq!(first.sign(&a.sub(&first.image(&b, &roots))), Ordering::Equal);
+    }
+
+    #[test]
+    fn one_root_has_a_sign_without_a_tower() {
+        let sign =
+            |a: i64, b: i64, c: i64| sign_with_root(&IBig::from(a), &IBig::from(b), &IBig::from(c));
+        assert_eq!(sign(-3, 2, 2), Ordering::Less);
+        assert_eq!(sign(-7, 5, 2), Ordering::Greater);
+        assert_eq!(sign(10, -5, 4), Ordering::Equal);
+        assert_eq!(sign(0, -5, 4), Ordering::Less);
+        assert_eq!(sign(0, -5, 0), Ordering::Equal);
+    }
 }

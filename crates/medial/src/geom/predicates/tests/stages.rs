@@ -9,6 +9,7 @@ use crate::geom::predicates::{
 
 use super::circle::Shape;
 use super::random::{Family, Random};
+use crate::geom::predicates::transition;
 
 #[test]
 fn short_cuts_answer_as_the_tower_does() {
@@ -196,5 +197,61 @@ fn two_ends_of_any_size_agree() {
             compared += 1;
         }
         assert!(compared > 100, "{family:?}: {compared}");
+    }
+}
+
+#[test]
+fn transitions_answer_as_the_tower_does() {
+    for family in Family::ALL {
+        let mut random = Random::new(71);
+        reset_counts();
+        let mut seen = [0; 3];
+        for k in 0..3000 {
+            let [a, b, c, d, p] = [0; 5].map(|_| family.point(&mut random));
+            // An edge, its end or its start, and a corner or an edge.
+            let v = Element::Corner(if k & 1 == 0 { a } else { b });
+            let other = if k & 2 == 0 { Element::Corner(c) } else { Element::Edge(c, d) };
+            let elements = [Element::Edge(a, b), v, other];
+            let Some(disk) = ExactDisk::new(elements) else { continue };
+            let answers = [
+                (transition::side_of_corner(&elements, p), disk.side_in_tower(Element::Corner(p))),
+                (transition::product_along(&elements, [c, d], d), disk.along_in_tower(c, d, d)),
+                (transition::product_along(&elements, [a, p], c), disk.along_in_tower(a, p, c)),
+                (transition::product_across(&elements, [p, c]), disk.front_in_tower(p, c)),
+            ];
+            for (answer, expected) in answers {
+                let Some(answer) = answer else {
+                    assert!(matches!(family, Family::Scales), "{elements:?}");
+                    continue;
+                };
+                assert_eq!(answer, expected, "{elements:?} {p:?}");
+                seen[(answer as i8 + 1) as usize] += 1;
+            }
+        }
+        // Over many scales the forms seldom apply.
+        let scales = matches!(family, Family::Scales);
+        assert!(scales || (seen[0] > 100 && seen[2] > 100), "{family:?} {seen:?}");
+        assert!(seen[1] > 100 || !matches!(family, Family::Small), "{family:?} {seen:?}");
+    }
+}
+
+#[test]
+fn facing_corners_of_a_corridor_tie_without_the_tower() {
+    // Two square holes of a lattice: the disk on the normals of both facing corners.
+    let p = Point::new;
+    let (right, left) = ((p(3.0, 3.0), p(3.0, 7.0)), (p(-3.0, 7.0), p(-3.0, 3.0)));
+    for turn in [(1.0, 0.0), (3.0, 4.0), (0.3, 0.7)] {
+        let at = |q: Point| p(q.x * turn.0 - q.y * turn.1, q.x * turn.1 + q.y * turn.0);
+        let [a, b, c, d] = [right.0, right.1, left.0, left.1].map(at);
+        let disk = ExactDisk::new([Element::Edge(a, b), Element::Corner(b), Element::Edge(c, d)])
+            .expect("walls that face each other");
+        reset_counts();
+        assert_eq!(disk.along(c, d, c), disk.along_in_tower(c, d, c));
+        assert_eq!(disk.side(Element::Corner(c)), disk.side_in_tower(Element::Corner(c)));
+        assert_eq!(counts().tower, 2, "{turn:?}");
+        // Tenths are rounded, so only whole numbers are sure to tie.
+        if turn.0 >= 1.0 {
+            assert_eq!(disk.along(c, d, c), Ordering::Equal);
+        }
     }
 }

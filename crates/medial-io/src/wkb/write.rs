@@ -1,0 +1,58 @@
+use crate::Drawing;
+use crate::path::records;
+use medial::axis::MedialAxis;
+use medial::geom::Point;
+
+const POINT: u32 = 1;
+const LINE: u32 = 2;
+const MULTI_POINT: u32 = 4;
+const MULTI_LINE: u32 = 5;
+const COLLECTION: u32 = 7;
+
+/// The axis as one MULTILINESTRING, a line per path, little-endian; ISO types with heights.
+///
+/// With keypoints it is a collection of the lines and a MULTIPOINT.
+#[must_use]
+pub fn write(axis: &MedialAxis, drawing: Drawing) -> Vec<u8> {
+    let mut out = Vec::new();
+    let z = if drawing.radius_as_z { 1000 } else { 0 };
+    let tolerance = drawing.tolerance(axis);
+    if drawing.keypoints {
+        head(&mut out, COLLECTION + z);
+        count(&mut out, 2);
+    }
+    head(&mut out, MULTI_LINE + z);
+    count(&mut out, axis.paths().len());
+    for record in records(axis) {
+        let points = drawing.points(&record.curve, tolerance);
+        head(&mut out, LINE + z);
+        count(&mut out, points.len());
+        for (p, radius) in points {
+            point(&mut out, p, drawing.radius_as_z.then_some(radius));
+        }
+    }
+    if drawing.keypoints {
+        head(&mut out, MULTI_POINT + z);
+        count(&mut out, axis.keypoints().len());
+        for keypoint in axis.keypoints() {
+            head(&mut out, POINT + z);
+            point(&mut out, keypoint.position, drawing.radius_as_z.then_some(keypoint.radius));
+        }
+    }
+    out
+}
+
+fn head(out: &mut Vec<u8>, kind: u32) {
+    out.push(1);
+    out.extend(kind.to_le_bytes());
+}
+
+fn count(out: &mut Vec<u8>, count: usize) {
+    out.extend((count as u32).to_le_bytes());
+}
+
+fn point(out: &mut Vec<u8>, p: Point, radius: Option<f64>) {
+    for value in [p.x, p.y].into_iter().chain(radius) {
+        out.extend(value.to_le_bytes());
+    }
+}

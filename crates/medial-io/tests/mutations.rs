@@ -1,0 +1,119 @@
+//! Readers on damaged input: an answer, never a panic.
+
+use medial_io::{Format, axis_document, read};
+
+const SEEDS: [(Format, &[u8]); 5] = [
+    (
+        Format::GeoJson,
+        br#"{"type":"FeatureCollection","crs":{"a":1},"features":[{"type":"Feature","id":1,
+            "properties":{"k":[1,"x"]},"geometry":{"type":"GeometryCollection","geometries":[
+            {"type":"Polygon","coordinates":[[[0,0],[4.5,-1e3],[4,2],[0,0]],[[1,1],[2,1,7],[2,2]]]},
+            {"type":"MultiPolygon","coordinates":[[[[0,0],[1,0],[1,1]]]]}]}},{"type":"Feature"}]}"#,
+    ),
+    (
+        Format::GeoJsonLines,
+        b"{\"type\":\"Polygon\",\"coordinates\":[[[0,0],[1,0],[1,1]]]}\n\x1e{\"type\":\"Point\"}\n",
+    ),
+    (
+        Format::Wkt,
+        b"SRID=4326;POLYGON Z ((0 0 1, 4e2 -0.5 1, 4 2 1), (1 1 1, 2 1 1, 2 2 1))\n\
+          GEOMETRYCOLLECTION (POINT (0 0), MULTIPOLYGON (((0 0, 1 0, 1 1)), EMPTY))\n\
+          LINESTRING (0 0, 1 0, 1 1, 0 0)",
+    ),
+    (
+        Format::Wkb,
+        b"\x01\x03\0\0\0\x01\0\0\0\x03\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\x10@\
+          \0\0\0\0\0\0\0\0\0\0\0\0\0\0\x10@\0\0\0\0\0\0\0@",
+    ),
+    (Format::Rings, b"[[[0,0],[4,0],[4,2]],[[1,1],[2,1],[2,2]]]\n[[[[0,0],[1,0],[1,1]]]]"),
+];
+
+const DOCUMENT: &[u8] = include_bytes!("../../../fixtures/l_with_unit_arms.axis.json");
+
+/// A small generator of numbers, the same on every run.
+struct Dice(u64);
+
+impl Dice {
+    fn below(&mut self, n: usize) -> usize {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 7;
+        self.0 ^= self.0 << 17;
+        (self.0 % n as u64) as usize
+    }
+}
+
+/// The input with one to three of: a byte changed, a run cut out, a run repeated, the end lost.
+fn damaged(seed: &[u8], dice: &mut Dice) -> Vec<u8> {
+    let mut bytes = seed.to_vec();
+    for _ in 0..=dice.below(3) {
+        if bytes.is_empty() {
+            break;
+        }
+        let at = dice.below(bytes.len());
+        let end = (at + 1 + dice.below(12)).min(bytes.len());
+        match dice.below(4) {
+            0 => bytes[at] = b"[]{}(),:\"-e0 \nZ\xff\0\x01"[dice.below(18)],
+            1 => drop(bytes.drain(at..end)),
+            2 => bytes.splice(at..at, bytes[at..end].to_vec()).for_each(drop),
+            _ => bytes.truncate(at),
+        }
+    }
+    bytes
+}
+
+#[test]
+fn damaged_polygons_are_read_or_refused() {
+    let mut dice = Dice(0x9e37_79b9_7f4a_7c15);
+    let (mut good, mut bad) = (0, 0);
+    for (format, seed) in SEEDS {
+        assert!(read(format, seed).unwrap().next().unwrap().is_ok(), "{format}");
+        for _ in 0..4000 {
+            let bytes = damaged(seed, &mut dice);
+            let _ = Format::of_content(&bytes);
+            let Ok(layer) = read(format, &bytes) else {
+                bad += 1;
+                continue;
+            };
+            for (k, feature) in layer.enumerate() {
+                match feature {
+                    Ok(feature) => {
+                        assert_eq!(feature.index, k);
+                        assert!(feature.polygonal || feature.polygons.is_empty());
+                        good += 1;
+                    }
+                    Err(error) => {
+                        assert_eq!(error.feature, k);
+                        assert!(!error.to_string().contains('\n'));
+                        bad += 1;
+                    }
+                }
+            }
+        }
+    }
+    assert!(good > 5000 && bad > 5000, "{good} good, {bad} bad");
+}
+
+#[test]
+fn damaged_axis_documents_are_read_or_refused() {
+    let mut dice = Dice(0x2545_f491_4f6c_dd1d);
+    let (mut good, mut bad) = (0, 0);
+    for _ in 0..4000 {
+        let bytes = damaged(DOCUMENT, &mut dice);
+        let Ok(text) = medial_io::text(&bytes) else { continue };
+        for document in axis_document::read(text) {
+            match document {
+                // What is read can be drawn, whatever its numbers say.
+                Ok(document) => {
+                    for path in document.axis.paths() {
+                        let curve = document.axis.curve(path);
+                        let _ =
+                            (curve.length(), curve.polyline(1e-2), curve.polyline_in_space(1e-2));
+                    }
+                    good += 1;
+                }
+                Err(_) => bad += 1,
+            }
+        }
+    }
+    assert!(good > 20 && bad > 1000, "{good} good, {bad} bad");
+}

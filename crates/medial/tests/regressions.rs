@@ -1,0 +1,27 @@
+//! Shapes that once went wrong, each a fixture of its own.
+
+mod support;
+
+use std::path::PathBuf;
+
+use medial::check;
+use medial::engine::path_tracing;
+use support::{brute_force, compare, shapes};
+
+/// The axis of a fixture has no defect and is the one of all triples.
+fn is_right(name: &str) {
+    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../fixtures").join(name);
+    let text = std::fs::read_to_string(&path).unwrap_or_else(|e| panic!("{name}: {e}"));
+    let domain = shapes::wkt(&text);
+    let axis = path_tracing(&domain).unwrap_or_else(|e| panic!("{name}: {e}"));
+    let defects = check::defects(&domain, &axis).defects;
+    assert!(defects.is_empty(), "{name}: {defects:?}");
+    let other = brute_force::try_axis(&domain).unwrap_or_else(|e| panic!("{name}: {e}"));
+    let differences = compare::differences(&axis, &other);
+    assert!(differences.is_empty(), "{name}: {differences:?}");
+}
+
+#[test]
+fn a_huge_disk_is_cut_by_an_edge_seen_from_behind() {
+    is_right("issue_2_edge_seen_from_behind_cuts_a_huge_disk.wkt");
+}
