@@ -66,11 +66,18 @@ pub enum Family {
 ///
 /// Rings may touch themselves and one another, so they are to be regrouped by their depth.
 pub fn shape(random: &mut Random, family: Family, ground: Ground) -> Polygons {
+    large_shape(random, family, ground, 14)
+}
+
+/// The same with up to `most` edges in its tangles, and lattices of that many cells.
+pub fn large_shape(random: &mut Random, family: Family, ground: Ground, most: u64) -> Polygons {
+    // 14 edges come from lattices three and four cells wide.
+    let cells = |n: u64| (n * most / 14) as i32;
     match family {
         Family::Tangle => {
-            let outer = 3 + random.below(12);
+            let outer = 3 + random.below(most - 2);
             let mut rings = vec![ring(random, ground, outer)];
-            let mut left = 14 - outer;
+            let mut left = most - outer;
             while left >= 3 && random.below(3) > 0 {
                 let n = 3 + random.below(left.min(5) - 2);
                 left -= n;
@@ -88,7 +95,7 @@ pub fn shape(random: &mut Random, family: Family, ground: Ground) -> Polygons {
             if random.below(2) == 0 {
                 outer.remove(random.below(4) as usize);
             }
-            let n = 1 + random.below(3);
+            let n = 1 + random.below(most / 4);
             let mut rings = vec![outer];
             for _ in 0..n {
                 let corners = 3 + random.below(2);
@@ -96,8 +103,8 @@ pub fn shape(random: &mut Random, family: Family, ground: Ground) -> Polygons {
             }
             vec![rings]
         }
-        Family::Triangles => vec![lattice(random, 3, true)],
-        Family::Squares => vec![lattice(random, 4, false)],
+        Family::Triangles => vec![lattice(random, cells(3), true)],
+        Family::Squares => vec![lattice(random, cells(4), false)],
     }
 }
 

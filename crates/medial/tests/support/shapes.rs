@@ -63,7 +63,7 @@ pub fn to_wkt(polygons: &Polygons) -> String {
 }
 
 /// Reads a POLYGON or a MULTIPOLYGON.
-fn parse(text: &str) -> Polygons {
+pub fn parse(text: &str) -> Polygons {
     let is_multi = text.trim_start().to_uppercase().starts_with("MULTI");
     let mut polygons: Polygons = Vec::new();
     let mut depth = 0;
