@@ -20,8 +20,8 @@ const SHOWN: [(f64, f64); 2] = [(0.36, 0.18), (0.66, 0.48)];
 
 fn draw() -> Fallible<String> {
     let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../../fixtures/lake.rings");
-    let text = fs::read_to_string(file)?;
-    let feature = read(Format::Rings, &text)?.next().ok_or("no feature in the fixture")??;
+    let bytes = fs::read(file)?;
+    let feature = read(Format::Rings, &bytes)?.next().ok_or("no feature in the fixture")??;
     let domain = Domain::from_polygons(&feature.polygons, &Options::default())?;
     let axis = judged(&domain)?;
     let (low, high) = axis.bounds().ok_or("an empty axis")?;
