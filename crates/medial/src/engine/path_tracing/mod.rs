@@ -26,7 +26,9 @@
 mod contacts;
 mod course;
 mod front;
+mod order;
 mod positions;
+mod probe;
 mod rings;
 mod search;
 mod touch;
