@@ -68,14 +68,15 @@ pub fn draw(shape: &Shape, panel: &mut Panel, step: &Step, names: [&str; 2]) {
         }
         panel.label(
             disk.0,
-            if point == "m_j" { (10.0, -14.0) } else { (-8.0, 14.0) },
+            if point == "m_j" { (-8.0, -15.0) } else { (8.0, 14.0) },
             PURPLE,
             point,
         );
     }
     panel.disk(step.to.0, step.to.1, DISK);
     let governors = [step.right, step.left].map(|s| shape.site(s));
-    panel.spokes(step.to.0, &governors);
+    let touched: Vec<_> = step.governors.iter().map(|&s| shape.site(s)).collect();
+    panel.spokes(step.to.0, &touched);
     panel.ray(front.from, front.way, FRONT);
     panel.head(front.from + front.way * 0.9, front.way, FRONT_INK);
     panel.ray(back.from, back.way, BACK);
@@ -84,8 +85,10 @@ pub fn draw(shape: &Shape, panel: &mut Panel, step: &Step, names: [&str; 2]) {
     for (governor, color) in governors.iter().zip([BLUE, ORANGE]) {
         panel.site(governor, color);
     }
-    panel.label((governors[0].a + governors[0].b) * 0.5, (0.0, -16.0), BLUE, names[0]);
-    panel.label((governors[1].a + governors[1].b) * 0.5, (0.0, 16.0), ORANGE, names[1]);
+    let aside = |is_edge: bool| if is_edge { 0.0 } else { -9.0 };
+    let middle = |k: usize| (governors[k].a + governors[k].b) * 0.5;
+    panel.label(middle(0), (aside(step.right.is_edge()), -16.0), BLUE, names[0]);
+    panel.label(middle(1), (aside(step.left.is_edge()), 16.0), ORANGE, names[1]);
     for bound in [&front, &back] {
         if let Some((centre, _)) = bound.disk {
             panel.point(centre, PURPLE);

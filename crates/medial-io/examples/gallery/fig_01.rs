@@ -19,7 +19,7 @@ fn draw() -> Fallible<String> {
     let shape =
         Shape::new(&[(0., 0.), (11., 0.6), (10.4, 3.8), (4.2, 3.6), (3.4, 7.2), (0.4, 6.8)])?;
     let mut sheet = Sheet::new(1, (820.0, 520.0));
-    let mut panel = sheet.panel(shape.window(0.4), "");
+    let mut panel = sheet.panel(shape.window(0.6), "");
     panel.domain(&shape.domain);
     let (junction, at) = shape.keypoint(KeypointKind::Junction, (9., 2.))?;
     panel.disk(at.position, at.radius, DISK);
@@ -45,7 +45,7 @@ fn draw() -> Fallible<String> {
     panel.label(change.position, (-12.0, -16.0), INK, "transition");
     panel.label(regular, (0.0, 18.0), INK, "regular point");
     let (_, end) = shape.keypoint(KeypointKind::End, (0., 7.))?;
-    panel.label(end.position, (12.0, -26.0), INK, "end");
+    panel.label(end.position, (0.0, 15.0), INK, "end");
     sheet.legend(&[
         (Sample::Line(AXIS), "axis"),
         (Sample::Disk(DISK), "maximal disk"),

@@ -38,14 +38,15 @@ fn draw() -> Fallible<String> {
         let shape = Shape::new(ring)?;
         let mut panel = sheet.panel(window, caption);
         panel.domain(&shape.domain);
-        // The longest path with governors of these kinds.
+        // The longest inner path with governors of these kinds.
         let path = shape
             .axis
             .paths()
             .iter()
             .filter(|p| {
                 let edges = shape.axis.path_governors(p).map(|s| s.a != s.b);
-                edges == [kinds.0, kinds.1] || edges == [kinds.1, kinds.0]
+                let inner = shape.axis.curve(p).radius_min() > 0.0;
+                inner && (edges == [kinds.0, kinds.1] || edges == [kinds.1, kinds.0])
             })
             .max_by(|p, q| {
                 let length = |p| shape.axis.curve(p).length();

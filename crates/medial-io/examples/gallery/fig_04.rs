@@ -44,9 +44,11 @@ fn draw() -> Fallible<String> {
         for way in ways {
             number += 1;
             let tip = edge.start + way * 1.05;
-            panel.line(edge.start, tip, SUPPORT);
-            panel.head(tip, way, MUTED);
-            panel.note(tip + way * 0.2, (0.0, 0.0), &number.to_string());
+            if ![chosen.0, domain.edge(chosen.0).next, chosen.1].contains(&k) {
+                panel.line(edge.start, tip, SUPPORT);
+                panel.head(tip, way, MUTED);
+            }
+            panel.note(tip + way.perp() * 0.22, (0.0, 0.0), &number.to_string());
         }
     }
     // One edge and one corner with their own two.

@@ -29,9 +29,11 @@ fn draw() -> Fallible<String> {
         panel.label(middle, (out.x * 18.0, out.y * 18.0), INK, &name(axis, site));
     }
     for (k, keypoint) in axis.keypoints().iter().enumerate() {
-        let d = if keypoint.kind == KeypointKind::End { (0.0, 0.0) } else { (11.0, 12.0) };
-        if d.0 != 0.0 {
-            panel.label(keypoint.position, d, PURPLE, &k.to_string());
+        let at = keypoint.position;
+        // Beside the keypoints of the arms, above those of the bend.
+        let aside = if at.x > 6.0 || at.y > 2.5 { (13.0, 0.0) } else { (11.0, 12.0) };
+        if keypoint.kind != KeypointKind::End {
+            panel.label(at, aside, PURPLE, &k.to_string());
         }
     }
     let layout = layout(axis);

@@ -1,4 +1,4 @@
-use crate::bounds::{VIEW, draw as draw_step, room};
+use crate::bounds::draw as draw_step;
 use crate::lesson::Lesson;
 use crate::shape::{Fallible, Shape};
 use crate::sheet::{Sample, Sheet};
@@ -13,10 +13,19 @@ pub const LESSON: Lesson = Lesson {
 };
 
 fn draw() -> Fallible<String> {
-    let mut sheet = Sheet::new(2, (440.0, 400.0));
-    let shape = room()?;
-    let step = shape.step(false, false, (6.0, 2.0))?;
-    let mut panel = sheet.panel(VIEW, "(a) a half-line bounds the path");
+    let mut sheet = Sheet::new(2, (440.0, 360.0));
+    let shape = Shape::new(&[
+        (0., 0.7),
+        (4., 1.),
+        (6.2, -1.2),
+        (10., -1.2),
+        (10., 6.6),
+        (7., 6.6),
+        (4.4, 4.2),
+        (0., 4.5),
+    ])?;
+    let step = shape.step(false, false, (4.2, 2.6))?;
+    let mut panel = sheet.panel(shape.window(0.4), "(a) a half-line bounds the path");
     draw_step(&shape, &mut panel, step, ["v_j", "v_i"]);
     let shape = Shape::new(&[
         (2., 0.),

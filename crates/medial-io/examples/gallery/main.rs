@@ -4,7 +4,9 @@
 //! Nothing here computes an axis: the shapes are given, all else is asked of `medial`.
 
 mod bounds;
+mod lake;
 mod lesson;
+mod letter;
 mod shape;
 mod sheet;
 mod style;
@@ -18,14 +20,17 @@ mod fig_06;
 mod fig_07;
 mod fig_08;
 mod fig_09;
+mod fig_10;
+mod fig_11;
+mod fig_12;
 
 use lesson::Lesson;
 use shape::Fallible;
 use std::fmt::Write as _;
 use std::fs;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
-const LESSONS: [Lesson; 9] = [
+const LESSONS: [Lesson; 12] = [
     fig_01::LESSON,
     fig_02::LESSON,
     fig_03::LESSON,
@@ -35,19 +40,70 @@ const LESSONS: [Lesson; 9] = [
     fig_07::LESSON,
     fig_08::LESSON,
     fig_09::LESSON,
+    fig_10::LESSON,
+    fig_11::LESSON,
+    fig_12::LESSON,
 ];
+
+/// Pictures besides, each in a file of its name.
+const PICTURES: [(&str, Lesson); 2] = [("letter", letter::LESSON), ("lake", lake::LESSON)];
+
+const HEAD: &str = "\
+# Gallery
+
+The twelve figures of [JPV] (see [REFERENCES.md](../../REFERENCES.md)), drawn again, and a few real shapes.
+Nothing here is drawn by hand: [the example `gallery`](../../crates/medial-io/examples/gallery/main.rs) gives the polygons and draws what the library returns for them, after `check::defects` has found nothing wrong with it.
+`scripts/figures` draws everything anew.
+
+";
+
+const RIVER: &str = "\
+## The river of the README
+
+![A stretch of river with its medial axis](../river.svg)
+
+`medial axis fixtures/river.geojson -o docs/river.svg` draws it.
+The axis ends in every convex corner, also in those of a rounded bend, which look like one.
+";
 
 fn main() -> Fallible<()> {
     let folder =
         std::env::args_os().nth(1).map_or_else(|| PathBuf::from("docs/gallery"), PathBuf::from);
     fs::create_dir_all(&folder)?;
-    let mut readme = "# Gallery\n\n".to_owned();
+    let mut readme = HEAD.to_owned();
     for (number, lesson) in (1..).zip(&LESSONS) {
-        let name = format!("fig-{number:02}.svg");
-        fs::write(folder.join(&name), (lesson.draw)()?)?;
-        let Lesson { title, text, .. } = lesson;
-        let _ = write!(readme, "## {number}. {title}\n\n![{title}]({name})\n\n{text}\n\n");
+        let heading = format!("{number}. {}", lesson.title);
+        draw(&folder, &format!("fig-{number:02}.svg"), &heading, lesson, &mut readme)?;
     }
-    fs::write(folder.join("README.md"), readme)?;
+    for (name, picture) in &PICTURES {
+        draw(&folder, &format!("{name}.svg"), picture.title, picture, &mut readme)?;
+    }
+    fs::write(folder.join("README.md"), readme + RIVER)?;
     Ok(())
+}
+
+/// Draws one figure, and adds it to the text.
+fn draw(
+    folder: &Path,
+    file: &str,
+    heading: &str,
+    lesson: &Lesson,
+    text: &mut String,
+) -> Fallible<()> {
+    fs::write(folder.join(file), (lesson.draw)()?)?;
+    // Names with an index are set lower in figures; the text has them in italics.
+    let words: Vec<String> = lesson.text.split(' ').map(italic).collect();
+    let _ = write!(text, "## {heading}\n\n![{}]({file})\n\n{}\n\n", lesson.title, words.join(" "));
+    Ok(())
+}
+
+/// A word such as `v_1`, with what follows it, as Markdown.
+fn italic(word: &str) -> String {
+    match word.split_once('_') {
+        Some((letter, rest)) if letter.len() == 1 && !rest.is_empty() => {
+            let (low, after) = rest.split_at(1);
+            format!("*{letter}*<sub>{low}</sub>{after}")
+        }
+        _ => word.to_owned(),
+    }
 }

@@ -12,6 +12,15 @@ use std::error::Error;
 /// The result of something that may go wrong.
 pub type Fallible<T> = Result<T, Box<dyn Error>>;
 
+/// The axis of a domain; refused if the judge finds a defect.
+pub fn judged(domain: &Domain) -> Fallible<MedialAxis> {
+    let axis = path_tracing(domain)?;
+    match defects(domain, &axis).defects.first() {
+        None => Ok(axis),
+        Some(defect) => Err(format!("a figure would show a defect: {defect}").into()),
+    }
+}
+
 /// A domain, its axis, and how that was traced.
 pub struct Shape {
     /// The validated polygon.
@@ -27,10 +36,7 @@ impl Shape {
     pub fn new(ring: &[(f64, f64)]) -> Fallible<Self> {
         let ring: Vec<Point> = ring.iter().map(|&(x, y)| Point::new(x, y)).collect();
         let domain = Domain::from_polygons(&[vec![ring]], &Options::default())?;
-        let axis = path_tracing(&domain)?;
-        if let Some(defect) = defects(&domain, &axis).defects.first() {
-            return Err(format!("a figure would show a defect: {defect}").into());
-        }
+        let axis = judged(&domain)?;
         let steps = path_tracing_steps(&domain)?.collect::<Result<_, _>>()?;
         Ok(Self { domain, axis, steps })
     }

@@ -202,15 +202,31 @@ impl Panel<'_> {
 
     /// The domain: its interior and its boundary.
     pub fn domain(&mut self, domain: &Domain) {
+        self.walks(domain, style::DOMAIN, |_| true);
+    }
+
+    /// Those walks of a domain that are wanted.
+    pub fn walks(&mut self, domain: &Domain, style: &str, wanted: impl Fn(&[Point]) -> bool) {
         let mut data = String::new();
         for walk in domain.walks() {
-            for k in walk.first..walk.first + walk.len {
-                let verb = if k == walk.first { 'M' } else { 'L' };
-                let _ = write!(data, "{verb}{}", self.pair(domain.edge(k).start));
+            let edges = &domain.edges()[walk.first as usize..(walk.first + walk.len) as usize];
+            let points: Vec<Point> = edges.iter().map(|e| e.start).collect();
+            if wanted(&points) {
+                let pairs: Vec<String> = points.iter().map(|&p| self.pair(p)).collect();
+                let _ = write!(data, "M{}Z", pairs.join("L"));
             }
-            data.push('Z');
         }
-        self.sheet.element("path", &format!("d=\"{data}\""), style::DOMAIN);
+        self.sheet.element("path", &format!("d=\"{data}\""), style);
+    }
+
+    /// Covers what lies outside the panel.
+    pub fn mat(&mut self) {
+        let (a, b) = (self.map(self.window.0), self.map(self.window.1));
+        let [x, y, w, h] = [a.x, b.y, b.x - a.x, a.y - b.y].map(px);
+        let far = "M-9999 -9999H19999V19999H-9999Z";
+        let data = format!("{far}M{x} {y}v{h}h{w}v-{h}Z");
+        let style = format!("fill=\"#ffffff\" fill-rule=\"evenodd\" stroke=\"{INK}\"");
+        self.sheet.element("path", &format!("d=\"{data}\""), &style);
     }
 
     /// All paths of an axis.
@@ -229,11 +245,19 @@ impl Panel<'_> {
 
     /// A curve, exactly.
     pub fn curve(&mut self, curve: &Curve, style: &str) {
-        let (from, to) = (self.pair(curve.from()), self.pair(curve.to()));
-        let data = match curve.control() {
-            Some(control) => format!("M{from}Q{} {to}", self.pair(control)),
-            None => format!("M{from}L{to}"),
-        };
+        self.curves([curve], style);
+    }
+
+    /// Curves in one stroke.
+    pub fn curves<'c>(&mut self, curves: impl IntoIterator<Item = &'c Curve>, style: &str) {
+        let mut data = String::new();
+        for curve in curves {
+            let (from, to) = (self.pair(curve.from()), self.pair(curve.to()));
+            let _ = match curve.control() {
+                Some(control) => write!(data, "M{from}Q{} {to}", self.pair(control)),
+                None => write!(data, "M{from}L{to}"),
+            };
+        }
         self.sheet.element("path", &format!("d=\"{data}\""), style);
     }
 

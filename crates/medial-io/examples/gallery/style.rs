@@ -55,3 +55,9 @@ pub const BACK_INK: &str = "#3949ab";
 /// A disk farther on than the path goes.
 pub const GHOST: &str = "fill=\"none\" stroke=\"#00897b\" stroke-opacity=\"0.5\" \
                          stroke-width=\"1.2\" stroke-dasharray=\"3 4\"";
+/// Water.
+pub const SHORE: &str = "fill=\"#dbeaf4\" fill-rule=\"evenodd\" stroke=\"#5d7f92\" \
+                         stroke-width=\"0.9\" stroke-linejoin=\"round\"";
+/// An axis with very many paths.
+pub const FINE: &str =
+    "fill=\"none\" stroke=\"#8e24aa\" stroke-width=\"1.3\" stroke-linecap=\"round\"";

@@ -15,9 +15,9 @@ use crate::geom::Point;
 
 /// Most pieces a curve is drawn with.
 ///
-/// Drawing only. Reached when the tolerance is about 1e-12 of the curve; finer polylines would
-/// mostly repeat rounding errors and a mistyped tolerance would fill the memory.
-const MAX_PIECES: f64 = 1_048_576.0;
+/// Drawing only. Reached when the tolerance is some 1e-11 of the curve; finer polylines would
+/// show nothing more, and a mistyped tolerance would fill the memory.
+const MAX_PIECES: f64 = 65_536.0;
 
 /// The curve of a path: a line or a piece of a parabola, with the radius along it.
 ///
@@ -245,7 +245,7 @@ impl Curve {
     }
 
     /// The curve as a polyline no farther than `tolerance` from it: its points with their radii,
-    /// both ends included. A line is its two ends.
+    /// both ends included. A line is its two ends; no curve has more than 65536 pieces.
     #[must_use]
     pub fn polyline(&self, tolerance: f64) -> Vec<(Point, f64)> {
         let pieces = match self.form {

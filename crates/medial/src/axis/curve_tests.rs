@@ -197,3 +197,12 @@ fn a_corner_on_its_own_line_gives_a_straight_line() {
     assert_eq!(curve.kind(), CurveKind::Line);
     assert_eq!(curve.length(), 1.0);
 }
+
+#[test]
+fn a_mistyped_tolerance_does_not_fill_the_memory() {
+    let curve = over_axis(1.0, -3.0, 5.0);
+    for tolerance in [1e-300, 0.0, f64::NAN] {
+        assert!(curve.polyline(tolerance).len() <= 65_537);
+        assert!(curve.polyline_in_space(tolerance).len() <= 65_537);
+    }
+}

@@ -220,7 +220,32 @@ impl Sweep<'_, '_> {
             let shared = DomainError::SharedEdge { first, second, at: p };
             let _ = self.found.shared_edge.get_or_insert(shared);
         }
+        if self.purpose == Purpose::Nest && !single.is_empty() {
+            self.nest_run(run, label);
+        }
         Ok(())
+    }
+
+    /// Orders edges of several polygons that overlap, at most four, so that rings are left from
+    /// the innermost one out, and then entered from the outermost one in.
+    fn nest_run(&mut self, run: &mut [u32], label: u32) {
+        for end in 1..run.len() {
+            for k in (1..=end).rev() {
+                let (one, other) = (self.segment(run[k - 1]), self.segment(run[k]));
+                let (a, b) = (one.ring, other.ring);
+                let swaps = match (one.enters_ring, other.enters_ring) {
+                    (enters, other) if enters != other => enters,
+                    (true, _) => self.compare_sizes(a, b).is_lt(),
+                    _ if a == label || b == label => b == label,
+                    // Of equal rings the one entered last is left first.
+                    _ => self.compare_sizes(a, b).is_ge(),
+                };
+                if !swaps {
+                    break;
+                }
+                run.swap(k - 1, k);
+            }
+        }
     }
 
     /// Whether two overlapping edges of one polygon both have vertices, as given, where the

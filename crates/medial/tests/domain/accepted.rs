@@ -277,6 +277,16 @@ fn regrouping_copes_with_rings_that_share_edges() {
 }
 
 #[test]
+fn regrouping_copes_with_a_polygon_that_shares_the_edge_of_a_hole() {
+    // The second polygon lies in a hole of the first, under its top edge; above is another hole.
+    let holes = rings("0 0 10 0 10 10 0 10 / 1 1 9 1 9 4 1 4 / 2 6 4 6 4 8 2 8");
+    let filling = rings("2 2 8 2 9 4 1 4");
+    let d = Domain::from_polygons(&[holes, filling], &REGROUP).expect("valid");
+    assert_eq!(d.area(), 100.0 - 24.0 - 4.0 + 14.0);
+    assert_eq!(d.n_components(), 2);
+}
+
+#[test]
 fn supporting_lines_are_shared_across_rings() {
     let d = domain("0 0 9 0 9 9 6 9 6 8 3 8 3 9 0 9 / 1 1 8 1 8 2 1 2");
     let at =
