@@ -72,8 +72,8 @@ pub enum Defect {
         /// Its position.
         at: Point,
     },
-    /// The governors are not listed counterclockwise by footpoint, nor boundary order where two
-    /// have one footpoint.
+    /// The governors are not listed counterclockwise by footpoint, or not in boundary order where
+    /// several have one footpoint.
     Order {
         /// Number of the keypoint.
         keypoint: u32,

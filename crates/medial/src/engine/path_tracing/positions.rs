@@ -1,8 +1,9 @@
 //! Positions and radii of keypoints, from one fixed triple of governors.
 //!
-//! The triple depends on the governor list only, so engines and orders of tracing agree. Newton
-//! steps with residuals in twice the precision of doubles; where their bound is too large, the
-//! exact disk is evaluated instead.
+//! The triple depends on the governor list, and not on how the keypoint was found, so engines and
+//! orders of tracing agree; the centre found serves to weigh corners, with a margin. Newton steps
+//! with residuals in twice the precision of doubles; where their bound is too large, the exact disk
+//! is evaluated instead.
 
 use super::contacts::follows;
 use crate::domain::{Domain, Site};
