@@ -10,6 +10,14 @@ use crate::domain::{Domain, Site};
 use crate::geom::predicates::ExactDisk;
 use crate::geom::{Double, Governor, Point};
 
+/// Least spread of the normals with which Newton steps in doubles converge; below it the exact
+/// disk is evaluated.
+const LEAST_SPREAD: f64 = 1e-12;
+
+/// How much wider the normals of a triple must spread to be preferred to an earlier one, so that
+/// the rounding of the centre does not choose.
+const CLEARLY_WIDER: f64 = 1.0 + 1e-6;
+
 /// Contact runs up to which every triple is weighed.
 const FEW_RUNS: usize = 6;
 
@@ -69,7 +77,7 @@ fn best_triple(domain: &Domain, list: &[Site], centre: Point) -> Option<[Site; 3
     let mut best: Option<(f64, [usize; 3])> = None;
     let mut weigh = |i: usize, j: usize, k: usize| {
         let spread = (normals[j] - normals[i]).cross(normals[k] - normals[i]);
-        if best.is_none_or(|(b, _)| spread > b * (1.0 + 1e-6)) {
+        if best.is_none_or(|(b, _)| spread > b * CLEARLY_WIDER) {
             best = Some((spread, [i, j, k]));
         }
     };
@@ -229,7 +237,7 @@ impl Precise {
             let (b, e) = (n2 - n1, n3 - n1);
             let d = b.cross(e);
             // Below this the solution in doubles no longer converges.
-            if d.is_nan() || d.abs() <= 1e-12 {
+            if d.is_nan() || d.abs() <= LEAST_SPREAD {
                 return None;
             }
             let (p12, p13) = (rho[0] - rho[1], rho[0] - rho[2]);
@@ -261,7 +269,7 @@ impl Precise {
             self.centre = Vector { x: normal.x * self.radius, y: normal.y * self.radius };
             let (n, distance) = self.distance(&self.elements[other]);
             let g = 1.0 - n.dot(normal.value());
-            if g.is_nan() || g <= 1e-12 {
+            if g.is_nan() || g <= LEAST_SPREAD {
                 return None;
             }
             let rho = (distance - self.radius).value();

@@ -1,9 +1,13 @@
 //! First proposals for the end of a path.
 
-use super::search::{Gap, Proposal, Search};
+use super::search::{Gap, Proposal, SLACK, Search};
 use super::verify::Verify;
 use crate::domain::Site;
 use crate::geom::TouchingDisk;
+use crate::geom::predicates::{First, Leaving, two_ends};
+
+/// More probes than exponents of doubles: each is four times as far as the one before.
+const MOST_PROBES: usize = 1100;
 
 /// Step, as a share of position and radius, at which halving the way to an obstacle stops.
 ///
@@ -24,16 +28,42 @@ impl Search<'_> {
     /// The best of the proposals that the boundary itself makes: each governor's neighbour, and
     /// what a growing probe meets before it.
     pub(super) fn first_proposal(&mut self, gap: &Gap) -> Option<Proposal> {
-        let domain = self.domain;
-        let mut best: Option<Proposal> = None;
-        for site in [domain.ahead(gap.right), domain.behind(gap.left)] {
-            if let Some(p) = self.propose(gap, site)
-                && best.is_none_or(|b| p.position < b.position)
-            {
-                best = Some(p);
+        let (ahead, behind) = (self.domain.ahead(gap.right), self.domain.behind(gap.left));
+        let best = match (self.propose(gap, ahead), self.propose(gap, behind)) {
+            (Some(right), Some(left)) => {
+                let near = SLACK * (right.disk.radius + gap.start.radius);
+                let right_first = if (right.position - left.position).abs() > near {
+                    right.position < left.position
+                } else {
+                    // Too close for doubles: facing corners of a corridor, most often.
+                    self.leaving(gap.right, ahead)
+                        .zip(self.leaving(gap.left, behind))
+                        .map_or(right.position <= left.position, |(r, l)| {
+                            two_ends(r, l) != First::Left
+                        })
+                };
+                Some(if right_first { right } else { left })
             }
-        }
+            (right, left) => right.or(left),
+        };
         self.probe(gap, best)
+    }
+
+    /// How a governor leaves the path for its neighbour on the boundary, if it does so on a normal.
+    fn leaving(&self, governor: Site, neighbour: Site) -> Option<Leaving> {
+        let ends = |k: u32| (self.domain.edge(k).start, self.domain.end(k));
+        match (governor.is_edge(), neighbour.is_edge()) {
+            (true, false) => {
+                let (a, b) = ends(governor.index());
+                Some(Leaving::Edge(a, b))
+            }
+            (false, true) => {
+                let (a, b) = ends(neighbour.index());
+                Some(Leaving::Corner(a, b))
+            }
+            // Around a convex corner the neighbour is met, not passed.
+            _ => None,
+        }
     }
 
     /// Grows a disk along the path until it meets something or passes `best`.
@@ -49,8 +79,7 @@ impl Search<'_> {
         // Up to where the disks seen are clear, and where the first one is cut by what makes no
         // third governor, or does not exist.
         let (mut clear, mut blocked) = (0.0, f64::INFINITY);
-        // Doubling exponents end long before this.
-        for _ in 0..1100 {
+        for _ in 0..MOST_PROBES {
             if best.is_some_and(|b| b.position <= 2.0 * reach) || !reach.is_finite() {
                 return best;
             }

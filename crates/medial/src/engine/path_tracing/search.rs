@@ -74,7 +74,11 @@ impl Gap {
 /// Share of a radius by which a proposal may miss a zone, or lie behind the start.
 ///
 /// Proposals only: what is proposed is certified or decided exactly afterwards.
-const SLACK: f64 = 1e-9;
+pub(super) const SLACK: f64 = 1e-9;
+
+/// Tries after which the engine gives up rather than hang; each one moves strictly backwards on
+/// the path or bans a site, so none of the shapes met comes near.
+const MOST_TRIES: usize = 100_000;
 
 /// Tries before only exact arithmetic proposes.
 const FLOATING_TRIES: usize = 48;
@@ -193,7 +197,7 @@ impl<'a> Search<'a> {
         let mut seen: Vec<Site> = Vec::new();
         // How many of them the last resort has weighed; all there are, if the greatest number.
         let mut known = 0;
-        for round in 0..100_000_usize {
+        for round in 0..MOST_TRIES {
             let Some(proposal) = best else {
                 best = self.last_resort(gap, &mut seen, &mut known)?;
                 continue;
