@@ -1,4 +1,6 @@
-//! The command `medial`.
+//! The command `medial`: files in, axes and verdicts out.
+//!
+//! It translates between people and the library, and computes nothing.
 
 mod args;
 mod commands;

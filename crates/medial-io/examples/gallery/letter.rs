@@ -31,7 +31,7 @@ fn draw() -> Fallible<String> {
     let hole = [(2., 5.4), (2., 8.), (3.4, 8.), (4.3, 7.5), (4.6, 6.7), (4.3, 5.9), (3.4, 5.4)];
     let ring = |ring: &[(f64, f64)]| ring.iter().map(|&(x, y)| Point::new(x, y)).collect();
     let rings: Vec<Vec<Point>> = vec![ring(&outer), ring(&hole)];
-    let domain = Domain::from_polygons(&[rings.clone()], &Options::default())?;
+    let domain = Domain::from_polygons(std::slice::from_ref(&rings), &Options::default())?;
     let scene = Scene { boundary: rings, axis: judged(&domain)? };
     let options = svg::Options { draw: vec![Extra::Cells], ..svg::Options::default() };
     Ok(svg::write(&[scene], &options))

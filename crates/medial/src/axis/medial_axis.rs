@@ -59,7 +59,7 @@ pub struct Site {
 pub enum KeypointKind {
     /// A convex corner, radius 0.
     End,
-    /// Degree two: a governor changes.
+    /// Degree two: one governor changes, or both do.
     Transition,
     /// Degree three or more.
     Junction,

@@ -4,9 +4,11 @@ use super::assemble::Walks;
 use super::unit::unit_vector;
 use crate::geom::{Double, Point, orient2d};
 
-/// A boundary element: an open edge, or the corner at the start of an edge.
+/// A boundary element by its number: an open edge, or the corner at the start of an edge.
 ///
-/// Sites are numbered along the boundary: corner 2k is the start of edge 2k + 1.
+/// Along the boundary 2k is the corner where edge number k starts, and 2k + 1 that edge. Convex
+/// corners have a number too, but govern nothing. What an axis lists is an
+/// [`axis::Site`](crate::axis::Site), which carries coordinates and its place in the input.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Site(pub u32);
 

@@ -19,14 +19,16 @@
 //! - Decisions are exact: doubles propose a disk, a certificate or exact arithmetic decides
 //!   whether it is empty, what touches it and in which zone.
 //! - The paper checks the end of a path only; a whole ring between two empty disks would be lost.
-//!   Here one corner of each hole is tested against every path.
+//!   Here an index over one corner of each hole is asked what lies between the two.
 //! - Contacts that tie are collected at once, so no path has length zero.
 //! - Where no half-line bounds a path [JPV, Fig. 12] a growing probe finds the third governor.
 
 mod contacts;
 mod course;
 mod front;
+mod order;
 mod positions;
+mod probe;
 mod rings;
 mod search;
 mod touch;

@@ -5,8 +5,6 @@
 //! counterclockwise order is a keypoint however it was proposed, and the next one on the path
 //! unless a whole ring lies between its disk and the one at the start ([`super::rings`]).
 
-use std::cmp::Ordering;
-
 use super::course::Course;
 use super::front::Front;
 use super::rings::HiddenRings;
@@ -66,15 +64,17 @@ pub(super) struct Gap {
     pub front: Option<Front>,
 }
 
-/// What a probe sees.
-enum Look {
-    /// A third governor.
-    Hit(Proposal),
-    /// The disk is cut by what makes no third governor, or does not exist.
-    Blocked,
-    /// Nothing.
-    Clear,
+impl Gap {
+    /// The triple that `site` would complete, counterclockwise.
+    pub fn triple(&self, site: Site) -> [Site; 3] {
+        [self.right, site, self.left]
+    }
 }
+
+/// Share of a radius by which a proposal may miss a zone, or lie behind the start.
+///
+/// Proposals only: what is proposed is certified or decided exactly afterwards.
+const SLACK: f64 = 1e-9;
 
 /// Tries before only exact arithmetic proposes.
 const FLOATING_TRIES: usize = 48;
@@ -157,24 +157,24 @@ impl<'a> Search<'a> {
         if !self.may_be_third(gap, site) {
             return None;
         }
-        let governors = self.triple(gap, site).map(|s| self.domain.governor(s));
+        let governors = gap.triple(site).map(|s| self.domain.governor(s));
         let disk = TouchingDisk::guess(&governors, gap.start.centre)?;
         if let Governor::Edge { start, end, direction } = governors[1] {
             let x = direction.dot(disk.centre + (disk.origin - start));
             let back = direction.dot(disk.centre + (disk.origin - end));
-            let slack = 1e-9 * disk.radius;
+            let slack = SLACK * disk.radius;
             if x < -slack || back > slack {
                 return None;
             }
         }
         let position = gap.course.position(&disk);
-        let slack = 1e-9 * (disk.radius + gap.start.radius);
+        let slack = SLACK * (disk.radius + gap.start.radius);
         (position >= -slack).then_some(Proposal { site, disk, position })
     }
 
     /// Whether a site can be met ahead: not the governors, and not what their footpoints have
     /// left behind.
-    fn may_be_third(&self, gap: &Gap, site: Site) -> bool {
+    pub fn may_be_third(&self, gap: &Gap, site: Site) -> bool {
         let (right, left) = (gap.right, gap.left);
         let left_behind = if site.is_edge() {
             (!right.is_edge() && site.index() == self.domain.edge(right.index()).prev)
@@ -184,99 +184,6 @@ impl<'a> Search<'a> {
                 || (left.is_edge() && site.index() == self.domain.edge(left.index()).next)
         };
         site != right && site != left && !left_behind && !self.banned.contains(&site)
-    }
-
-    fn triple(&self, gap: &Gap, site: Site) -> [Site; 3] {
-        [gap.right, site, gap.left]
-    }
-
-    /// The best of the proposals that the boundary itself makes: each governor's neighbour, and
-    /// what a growing probe meets before it.
-    fn first_proposal(&mut self, gap: &Gap) -> Option<Proposal> {
-        let domain = self.domain;
-        let mut best: Option<Proposal> = None;
-        for site in [domain.ahead(gap.right), domain.behind(gap.left)] {
-            if let Some(p) = self.propose(gap, site)
-                && best.is_none_or(|b| p.position < b.position)
-            {
-                best = Some(p);
-            }
-        }
-        self.probe(gap, best)
-    }
-
-    /// Grows a disk along the path until it meets something or passes `best`.
-    fn probe(&mut self, gap: &Gap, best: Option<Proposal>) -> Option<Proposal> {
-        let shorter = |a: f64, b: Option<f64>| b.map_or(a, |b| a.min(b));
-        let length = |s: Site| s.is_edge().then(|| self.domain.edge(s.index()).length);
-        let mut reach = if gap.start.radius > 0.0 {
-            2.0 * gap.start.radius
-        } else {
-            shorter(length(gap.right).unwrap_or(1.0), length(gap.left)) / 2.0
-        };
-        let limit = self.limit(gap);
-        // Up to where the disks seen are clear, and where the first one is cut by what makes no
-        // third governor, or does not exist.
-        let (mut clear, mut blocked) = (0.0, f64::INFINITY);
-        // Doubling exponents end long before this.
-        for _ in 0..1100 {
-            if best.is_some_and(|b| b.position <= 2.0 * reach) || !reach.is_finite() {
-                return best;
-            }
-            let at_limit = limit.filter(|l| l.1 <= reach);
-            let position = at_limit.map_or(reach, |l| l.1);
-            let disk = at_limit.map_or_else(|| gap.course.disk_at(position), |l| Some(l.0));
-            match self.look(gap, disk, position) {
-                Look::Hit(hit) => return Some(hit),
-                Look::Clear if blocked == f64::INFINITY => clear = position,
-                Look::Clear => {}
-                Look::Blocked => blocked = blocked.min(position),
-            }
-            if at_limit.is_some() || disk.is_none() {
-                break;
-            }
-            reach *= 4.0;
-        }
-        // What blocks the path lies between two probes.
-        while blocked < f64::INFINITY && blocked - clear > 1e-9 * (blocked + gap.start.radius) {
-            let position = (clear + blocked) / 2.0;
-            match self.look(gap, gap.course.disk_at(position), position) {
-                Look::Hit(hit) => return Some(hit),
-                Look::Clear => clear = position,
-                Look::Blocked => blocked = position,
-            }
-        }
-        best
-    }
-
-    fn look(&self, gap: &Gap, disk: Option<TouchingDisk>, position: f64) -> Look {
-        let Some(disk) = disk else { return Look::Blocked };
-        let mut verify = Verify::hunting(self, gap, disk, position);
-        verify.run();
-        match verify.best() {
-            Some(hit) => Look::Hit(hit),
-            None if verify.is_cut() => Look::Blocked,
-            None => Look::Clear,
-        }
-    }
-
-    /// Where the path leaves the zone of a governor, whatever stands there.
-    fn limit(&self, gap: &Gap) -> Option<(TouchingDisk, f64)> {
-        let end_of = |site: Site| self.domain.edge(site.index()).next;
-        let corners = [
-            gap.right.is_edge().then(|| Site::corner(end_of(gap.right))),
-            gap.left.is_edge().then(|| Site::corner(gap.left.index())),
-        ];
-        let mut first: Option<(TouchingDisk, f64)> = None;
-        for site in corners.into_iter().flatten() {
-            let governors = self.triple(gap, site).map(|s| self.domain.governor(s));
-            let Some(disk) = TouchingDisk::guess(&governors, gap.start.centre) else { continue };
-            let position = gap.course.position(&disk);
-            if position > 0.0 && first.is_none_or(|f| position < f.1) {
-                first = Some((disk, position));
-            }
-        }
-        first
     }
 
     /// From a first proposal to the verified end of the path.
@@ -291,7 +198,7 @@ impl<'a> Search<'a> {
                 best = self.last_resort(gap, &mut seen, &mut known)?;
                 continue;
             };
-            let triple = self.triple(gap, proposal.site);
+            let triple = gap.triple(proposal.site);
             self.tried.push(Candidate {
                 site: proposal.site,
                 centre: proposal.disk.position(),
@@ -424,111 +331,10 @@ impl<'a> Search<'a> {
     }
 
     fn proposal_or_exact(&self, gap: &Gap, site: Site) -> Option<Proposal> {
-        let triple = self.triple(gap, site);
+        let triple = gap.triple(site);
         let exact = self.exact(&triple)?;
         let disk = rounded(&exact, self.domain.edge(site.index()).start);
         Some(Proposal { site, disk, position: gap.course.position(&disk) })
-    }
-
-    /// Of some sites the one whose exact disk comes first on the path, ahead of the start, and
-    /// touches all three in their zones.
-    fn exact_first(&self, gap: &Gap, sites: &[Site]) -> Option<Site> {
-        self.first_where(gap, sites, |disk, site| {
-            [gap.right, site, gap.left].iter().all(|&s| self.in_zone(disk, s))
-        })
-    }
-
-    /// Of some corners the one whose exact disk comes first on the path, ahead of the start.
-    fn first_on_path(&self, gap: &Gap, corners: &[Site]) -> Option<Site> {
-        self.first_where(gap, corners, |_, _| true)
-    }
-
-    fn first_where(
-        &self,
-        gap: &Gap,
-        sites: &[Site],
-        holds: impl Fn(&ExactDisk, Site) -> bool,
-    ) -> Option<Site> {
-        let start = gap.start.triple.and_then(|t| self.exact(&t));
-        let mut first: Option<(Site, ExactDisk)> = None;
-        for &site in sites {
-            if !self.may_be_third(gap, site) {
-                continue;
-            }
-            let Some(disk) = self.exact(&self.triple(gap, site)) else { continue };
-            if !holds(&disk, site) {
-                continue;
-            }
-            if let Some(start) = &start
-                && self.along_path(gap, start, &disk) != Ordering::Less
-            {
-                continue;
-            }
-            let nearer = first
-                .as_ref()
-                .is_none_or(|(_, f)| self.along_path(gap, &disk, f) == Ordering::Less);
-            if nearer {
-                first = Some((site, disk));
-            }
-        }
-        first.map(|(site, _)| site)
-    }
-
-    /// Whether a disk touches a site within the site's zone.
-    fn in_zone(&self, disk: &ExactDisk, site: Site) -> bool {
-        let edge = self.domain.edge(site.index());
-        let (a, b) = (edge.start, self.domain.end(site.index()));
-        if site.is_edge() {
-            disk.along(a, b, a) != Ordering::Less && disk.along(a, b, b) != Ordering::Greater
-        } else {
-            let before = self.domain.edge(edge.prev).start;
-            disk.along(before, a, a) != Ordering::Less && disk.along(a, b, a) != Ordering::Greater
-        }
-    }
-
-    /// Orders two exact disks of the path along it.
-    fn along_path(&self, gap: &Gap, first: &ExactDisk, second: &ExactDisk) -> Ordering {
-        let ends = |s: Site| (self.domain.edge(s.index()).start, self.domain.end(s.index()));
-        if gap.right.is_edge() {
-            let (a, b) = ends(gap.right);
-            first.compare_along(second, a, b)
-        } else if gap.left.is_edge() {
-            let (a, b) = ends(gap.left);
-            first.compare_along(second, b, a)
-        } else {
-            // Forwards is a quarter turn to the right of the vector between the corners.
-            let (p, q) = (ends(gap.right).0, ends(gap.left).0);
-            first.compare_along(second, Point::new(p.y, q.x), Point::new(q.y, p.x))
-        }
-    }
-
-    /// Whether a verified disk lies ahead of the start; needed only where rings may hide.
-    fn is_ahead(&self, gap: &Gap, disk: &TouchingDisk, triple: &[Site; 3]) -> bool {
-        let Some(start) = gap.start.triple else { return true };
-        let position = gap.course.position(disk);
-        if position > 1e-6 * (disk.radius + gap.start.radius) + disk.bound {
-            return true;
-        }
-        match (self.exact(&start), self.exact(triple)) {
-            (Some(a), Some(b)) => self.along_path(gap, &a, &b) == Ordering::Less,
-            _ => false,
-        }
-    }
-
-    /// Whether the disk through a corner of a whole ring lies between start and end of a path.
-    fn is_between(&self, gap: &Gap, site: Site, found: &Found) -> bool {
-        let Some(disk) = self.exact(&self.triple(gap, site)) else { return false };
-        if let Some(start) = gap.start.triple.and_then(|t| self.exact(&t))
-            && self.along_path(gap, &start, &disk) != Ordering::Less
-        {
-            return false;
-        }
-        match found {
-            Found::Corner(_) => true,
-            Found::Disk { triple, .. } => self
-                .exact(triple)
-                .is_some_and(|end| self.along_path(gap, &disk, &end) == Ordering::Less),
-        }
     }
 
     /// What an edge is to an exact disk; the governors themselves are not asked.

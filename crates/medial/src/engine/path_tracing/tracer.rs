@@ -331,6 +331,9 @@ fn site_record(domain: &Domain, site: Site) -> axis::Site {
 }
 
 /// One traced path, as a value to look at.
+///
+/// Centres and radii are those of the tracing, within their bounds; `path_tracing` places keypoints
+/// once more, to within 4 ulp.
 #[derive(Clone, Debug)]
 pub struct Step {
     /// Centre and radius where the path starts.
@@ -343,8 +346,8 @@ pub struct Step {
     pub left: Site,
     /// All governors at the end of the path, counterclockwise by footpoint.
     pub governors: Vec<Site>,
-    /// Third governors that were tried, in order; the last one held, unless a convex corner or a
-    /// tie ended the path.
+    /// Third governors that were tried, in order, each with the disk proposed for it; the last one
+    /// held. None where nothing but a convex corner was met.
     pub candidates: Vec<Candidate>,
     /// Whether the path ended at a keypoint known already.
     pub closes_loop: bool,

@@ -1,0 +1,114 @@
+//! First proposals for the end of a path.
+
+use super::search::{Gap, Proposal, Search};
+use super::verify::Verify;
+use crate::domain::Site;
+use crate::geom::TouchingDisk;
+
+/// Step, as a share of position and radius, at which halving the way to an obstacle stops.
+///
+/// Proposals only: where none is found, exact arithmetic looks at every site.
+const SMALLEST_STEP: f64 = 1e-9;
+
+/// What a probe sees.
+enum Look {
+    /// A third governor.
+    Hit(Proposal),
+    /// The disk is cut by what makes no third governor, or does not exist.
+    Blocked,
+    /// Nothing.
+    Clear,
+}
+
+impl Search<'_> {
+    /// The best of the proposals that the boundary itself makes: each governor's neighbour, and
+    /// what a growing probe meets before it.
+    pub(super) fn first_proposal(&mut self, gap: &Gap) -> Option<Proposal> {
+        let domain = self.domain;
+        let mut best: Option<Proposal> = None;
+        for site in [domain.ahead(gap.right), domain.behind(gap.left)] {
+            if let Some(p) = self.propose(gap, site)
+                && best.is_none_or(|b| p.position < b.position)
+            {
+                best = Some(p);
+            }
+        }
+        self.probe(gap, best)
+    }
+
+    /// Grows a disk along the path until it meets something or passes `best`.
+    fn probe(&mut self, gap: &Gap, best: Option<Proposal>) -> Option<Proposal> {
+        let shorter = |a: f64, b: Option<f64>| b.map_or(a, |b| a.min(b));
+        let length = |s: Site| s.is_edge().then(|| self.domain.edge(s.index()).length);
+        let mut reach = if gap.start.radius > 0.0 {
+            2.0 * gap.start.radius
+        } else {
+            shorter(length(gap.right).unwrap_or(1.0), length(gap.left)) / 2.0
+        };
+        let limit = self.limit(gap);
+        // Up to where the disks seen are clear, and where the first one is cut by what makes no
+        // third governor, or does not exist.
+        let (mut clear, mut blocked) = (0.0, f64::INFINITY);
+        // Doubling exponents end long before this.
+        for _ in 0..1100 {
+            if best.is_some_and(|b| b.position <= 2.0 * reach) || !reach.is_finite() {
+                return best;
+            }
+            let at_limit = limit.filter(|l| l.1 <= reach);
+            let position = at_limit.map_or(reach, |l| l.1);
+            let disk = at_limit.map_or_else(|| gap.course.disk_at(position), |l| Some(l.0));
+            match self.look(gap, disk, position) {
+                Look::Hit(hit) => return Some(hit),
+                Look::Clear if blocked == f64::INFINITY => clear = position,
+                Look::Clear => {}
+                Look::Blocked => blocked = blocked.min(position),
+            }
+            if at_limit.is_some() || disk.is_none() {
+                break;
+            }
+            reach *= 4.0;
+        }
+        // What blocks the path lies between two probes.
+        while blocked < f64::INFINITY
+            && blocked - clear > SMALLEST_STEP * (blocked + gap.start.radius)
+        {
+            let position = (clear + blocked) / 2.0;
+            match self.look(gap, gap.course.disk_at(position), position) {
+                Look::Hit(hit) => return Some(hit),
+                Look::Clear => clear = position,
+                Look::Blocked => blocked = position,
+            }
+        }
+        best
+    }
+
+    fn look(&self, gap: &Gap, disk: Option<TouchingDisk>, position: f64) -> Look {
+        let Some(disk) = disk else { return Look::Blocked };
+        let mut verify = Verify::hunting(self, gap, disk, position);
+        verify.run();
+        match verify.best() {
+            Some(hit) => Look::Hit(hit),
+            None if verify.is_cut() => Look::Blocked,
+            None => Look::Clear,
+        }
+    }
+
+    /// Where the path leaves the zone of a governor, whatever stands there.
+    fn limit(&self, gap: &Gap) -> Option<(TouchingDisk, f64)> {
+        let end_of = |site: Site| self.domain.edge(site.index()).next;
+        let corners = [
+            gap.right.is_edge().then(|| Site::corner(end_of(gap.right))),
+            gap.left.is_edge().then(|| Site::corner(gap.left.index())),
+        ];
+        let mut first: Option<(TouchingDisk, f64)> = None;
+        for site in corners.into_iter().flatten() {
+            let governors = gap.triple(site).map(|s| self.domain.governor(s));
+            let Some(disk) = TouchingDisk::guess(&governors, gap.start.centre) else { continue };
+            let position = gap.course.position(&disk);
+            if position > 0.0 && first.is_none_or(|f| position < f.1) {
+                first = Some((disk, position));
+            }
+        }
+        first
+    }
+}
