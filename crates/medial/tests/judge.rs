@@ -387,3 +387,60 @@ fn a_sampled_axis_is_judged_by_its_radii_and_topology() {
     parts.keypoints[k].position.x += 0.009;
     assert_found!(judge(&domain, &parts), Defect::SampledRadius { .. });
 }
+
+/// The left half of the axis of a rectangle, cut in the middle of the plateau.
+fn half(domain: &Domain) -> Parts {
+    let mut parts = Parts::of(&brute_force::axis(domain));
+    parts.complete = false;
+    let (a, b) = (parts.at(1.0, 1.0), parts.at(4.0, 1.0));
+    let plateau = parts.paths[parts.between(a, b)];
+    parts.keypoints[b] = Keypoint {
+        position: Point::new(2.5, 1.0),
+        radius: 1.0,
+        kind: KeypointKind::Transition,
+        governors: vec![plateau.left, plateau.right],
+    };
+    let (a, b) = (a as u32, b as u32);
+    // The ends on the right keep no path; take them away with theirs.
+    parts.paths.retain(|p| ![p.from, p.to].contains(&b) || [p.from, p.to].contains(&a));
+    for place in [Point::new(5.0, 0.0), Point::new(5.0, 2.0)] {
+        let k = parts.at(place.x, place.y);
+        parts.keypoints.remove(k);
+        for path in &mut parts.paths {
+            for end in [&mut path.from, &mut path.to] {
+                if *end as usize > k {
+                    *end -= 1;
+                }
+            }
+        }
+    }
+    parts.drop_idle_sites();
+    parts
+}
+
+#[test]
+fn a_cut_axis_may_end_between_any_two_governors() {
+    let domain = shapes::domain("rectangle_5_by_2");
+    let parts = half(&domain);
+    assert_eq!(parts.keypoints.len(), 4);
+    assert_eq!(judge(&domain, &parts), []);
+}
+
+#[test]
+fn a_tip_is_held_to_its_governors_too() {
+    let domain = shapes::domain("rectangle_5_by_2");
+    let mut off = half(&domain);
+    let tip = off.at(2.5, 1.0);
+    off.keypoints[tip].position.y = 1.1;
+    assert_found!(judge(&domain, &off), Defect::NotTouching { keypoint, .. }
+        if *keypoint as usize == tip);
+    // Too near to the right side, which it does not list.
+    let mut cut = half(&domain);
+    cut.keypoints[tip].position.x = 4.5;
+    assert_found!(judge(&domain, &cut), Defect::Cut { keypoint, .. }
+        if *keypoint as usize == tip);
+    // In a complete axis nothing ends there.
+    let mut complete = half(&domain);
+    complete.complete = true;
+    assert_found!(judge(&domain, &complete), Defect::NoDisk { .. });
+}

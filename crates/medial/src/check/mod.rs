@@ -22,6 +22,7 @@ mod boundary;
 mod context;
 mod defect;
 mod direction;
+mod disks;
 mod enclosure;
 mod identities;
 mod keypoints;
@@ -43,6 +44,19 @@ use context::Context;
 /// Every defect of an axis of a domain, with counts and identities.
 ///
 /// Works on any axis, however wrong.
+///
+/// ```
+/// use medial::check::{self, Defect};
+/// use medial::domain::{Domain, Options};
+/// use medial::engine::path_tracing;
+/// use medial::geom::Point;
+/// let corners = [(0.0, 0.0), (5.0, 0.0), (5.0, 2.0), (0.0, 2.0)].map(|(x, y)| Point::new(x, y));
+/// let rectangle = Domain::from_polygons(&[vec![corners.to_vec()]], &Options::default())?;
+/// let verdict = check::defects(&rectangle, &path_tracing(&rectangle)?);
+/// assert!(verdict.defects.is_empty());
+/// assert_eq!((verdict.counts.ends, verdict.counts.junctions, verdict.counts.paths), (4, 2, 5));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[must_use]
 pub fn defects(domain: &Domain, axis: &MedialAxis) -> Verdict {
     let mut defects = Vec::new();

@@ -52,6 +52,24 @@ impl Parts {
         .expect("faults keep numbers inside their tables")
     }
 
+    /// Takes away the sites that govern nothing any more.
+    pub fn drop_idle_sites(&mut self) {
+        let governs = |site: u32| {
+            self.keypoints.iter().any(|k| k.governors.contains(&site))
+                || self.paths.iter().any(|p| p.left == site || p.right == site)
+        };
+        let kept: Vec<u32> = (0..self.sites.len() as u32).filter(|&s| governs(s)).collect();
+        let number =
+            |old: u32| kept.iter().position(|&k| k == old).expect("it governs something") as u32;
+        for path in &mut self.paths {
+            (path.left, path.right) = (number(path.left), number(path.right));
+        }
+        for governor in self.keypoints.iter_mut().flat_map(|k| &mut k.governors) {
+            *governor = number(*governor);
+        }
+        self.sites = kept.iter().map(|&k| self.sites[k as usize]).collect();
+    }
+
     /// Number of the keypoint at a place.
     pub fn at(&self, x: f64, y: f64) -> usize {
         self.keypoints
