@@ -6,7 +6,7 @@ use std::path::Path;
 use std::process::ExitCode;
 use std::{env, fs};
 
-use medial_fuzz::{FAMILIES, any_polygons, check_axis, check_domain, shape, to_wkt};
+use medial_fuzz::{FAMILIES, Polygons, any_polygons, check_axis, check_domain, shape, to_wkt};
 
 /// Inputs written for each family of shapes.
 const EACH: u64 = 60;
@@ -60,17 +60,22 @@ fn tell(target: &str, files: &[&str]) -> Result<(), Box<dyn std::error::Error>> 
     let mut by_family = [[0; 2]; FAMILIES];
     for file in files {
         let data = fs::read(file)?;
-        let (polygons, result) = if target == "domain" {
+        let show = |polygons: &Polygons| {
+            if files.len() == 1 {
+                println!("{}", to_wkt(polygons));
+            }
+        };
+        let result = if target == "domain" {
             let polygons = any_polygons(&data);
-            let result = check_domain(&polygons);
-            (polygons, result)
+            show(&polygons);
+            check_domain(&polygons)
         } else {
             let family = &mut by_family[data.first().map_or(0, |&b| usize::from(b) % FAMILIES)];
             family[1] += 1;
             let Some(shape) = shape(&data) else { continue };
             family[0] += 1;
-            let result = check_axis(&shape).map(|()| true);
-            (shape.polygons, result)
+            show(&shape.polygons);
+            check_axis(&shape).map(|()| true)
         };
         match result {
             Ok(yes) => accepted += usize::from(yes),
@@ -78,9 +83,6 @@ fn tell(target: &str, files: &[&str]) -> Result<(), Box<dyn std::error::Error>> 
                 faults += 1;
                 println!("{file}: {why}");
             }
-        }
-        if files.len() == 1 {
-            println!("{}", to_wkt(&polygons));
         }
     }
     println!("{accepted} accepted of {}, {faults} with a fault", files.len());
