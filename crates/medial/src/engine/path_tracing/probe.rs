@@ -75,12 +75,16 @@ impl Search<'_> {
         } else {
             shorter(length(gap.right).unwrap_or(1.0), length(gap.left)) / 2.0
         };
+        let is_near = |reach: f64| best.is_some_and(|b| b.position <= 2.0 * reach);
+        if is_near(reach) {
+            return best;
+        }
         let limit = self.limit(gap);
         // Up to where the disks seen are clear, and where the first one is cut by what makes no
         // third governor, or does not exist.
         let (mut clear, mut blocked) = (0.0, f64::INFINITY);
         for _ in 0..MOST_PROBES {
-            if best.is_some_and(|b| b.position <= 2.0 * reach) || !reach.is_finite() {
+            if is_near(reach) || !reach.is_finite() {
                 return best;
             }
             let at_limit = limit.filter(|l| l.1 <= reach);
