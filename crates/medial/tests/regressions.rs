@@ -25,3 +25,13 @@ fn is_right(name: &str) {
 fn a_huge_disk_is_cut_by_an_edge_seen_from_behind() {
     is_right("issue_2_edge_seen_from_behind_cuts_a_huge_disk.wkt");
 }
+
+#[test]
+fn a_ring_on_the_path_is_met_though_one_of_its_edges_proposes_a_disk_far_away() {
+    is_right("issue_2_ring_lost_to_a_proposal_far_away.wkt");
+}
+
+#[test]
+fn an_edge_of_another_component_that_ends_in_the_first_corner_makes_no_keypoint() {
+    is_right("issue_2_edge_of_another_component_ends_at_the_first_corner.wkt");
+}

@@ -119,7 +119,9 @@ impl<'a> Search<'a> {
             let first = self.first_proposal(&gap);
             self.settle(&gap, first)?
         };
-        loop {
+        let mut last_hidden = None;
+        // Each turn ends the path at an earlier site.
+        for _ in 0..=2 * self.tree.items().len() {
             if let Found::Disk { contacts, .. } = &found
                 && let Some(behind) = contact_behind(contacts, right, left)
             {
@@ -137,10 +139,16 @@ impl<'a> Search<'a> {
                 return Ok(found);
             }
             self.banned.clear();
-            let site = self.first_on_path(&gap, &hidden).ok_or_else(|| self.broken(&gap))?;
+            let mut site = self.first_on_path(&gap, &hidden).ok_or_else(|| self.broken(&gap))?;
+            if last_hidden.replace(site) == Some(site) {
+                // Proposals led past the ring once: the first contact of all is the end.
+                let all = self.everything();
+                site = self.exact_first(&gap, &all).ok_or_else(|| self.broken(&gap))?;
+            }
             let next = self.proposal_or_exact(&gap, site);
             found = self.settle(&gap, next)?;
         }
+        Err(self.broken(&gap))
     }
 
     fn broken(&self, gap: &Gap) -> EngineError {
@@ -299,20 +307,20 @@ impl<'a> Search<'a> {
             return Err(self.broken(gap));
         }
         *known = usize::MAX;
-        let edges = self.tree.items();
-        seen.clear();
-        for k in edges {
-            for s in [Site::corner(k), Site::edge(k)] {
-                let is_site = s.is_edge() || self.domain.edge(k).corner != Corner::Convex;
-                if is_site && !self.banned.contains(&s) {
-                    seen.push(s);
-                }
-            }
-        }
+        *seen = self.everything();
         match self.exact_first(gap, seen) {
             Some(site) => Ok(self.proposal_or_exact(gap, site)),
             None => Err(self.broken(gap)),
         }
+    }
+
+    /// All sites of the polygon that are not banned.
+    fn everything(&self) -> Vec<Site> {
+        let is_site =
+            |s: &Site| s.is_edge() || self.domain.edge(s.index()).corner != Corner::Convex;
+        let both = |k| [Site::corner(k), Site::edge(k)];
+        let all = self.tree.items().flat_map(both);
+        all.filter(|s| is_site(s) && !self.banned.contains(s)).collect()
     }
 
     /// The certified disk of a triple, and the exact one where doubles would not certify.
@@ -330,8 +338,13 @@ impl<'a> Search<'a> {
         Some((disk, Some(exact)))
     }
 
+    /// The exact disk of a triple; `None` if there is none, or its radius is zero.
     pub fn exact(&self, triple: &[Site; 3]) -> Option<ExactDisk> {
-        ExactDisk::new(triple.map(|s| self.domain.element(s)))
+        let disk = ExactDisk::new(triple.map(|s| self.domain.element(s)))?;
+        // Three edges may end at one point; their disk has its centre on each of them.
+        let (edge, all_edges) = (triple[0].index(), triple.iter().all(|s| s.is_edge()));
+        let zero = || disk.front(self.domain.edge(edge).start, self.domain.end(edge)).is_eq();
+        (!all_edges || !zero()).then_some(disk)
     }
 
     fn proposal_or_exact(&self, gap: &Gap, site: Site) -> Option<Proposal> {

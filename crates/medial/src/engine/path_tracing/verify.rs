@@ -133,7 +133,9 @@ impl<'s, 'a> Verify<'s, 'a> {
         for site in self.sites_of(edge) {
             let Some(p) = self.search.propose(self.gap, site) else { continue };
             let limit = self.best.map_or(self.position, |b| b.position);
-            if p.position < limit {
+            // The radius is convex along a path: an earlier disk is no larger than both ends.
+            let largest = self.disk.radius.max(self.gap.start.radius) * (1.0 + 1e-6);
+            if p.position < limit && p.disk.radius <= largest {
                 self.best = Some(p);
                 self.hunting = true;
                 self.look_into(p.disk);
