@@ -1,7 +1,7 @@
 use std::ops::ControlFlow;
 
 use crate::domain::Domain;
-use crate::geom::{Point, Rect};
+use crate::geom::{Point, Rect, hilbert};
 
 /// Children of a node, and edges of a leaf.
 const WIDTH: usize = 8;
@@ -92,7 +92,7 @@ impl Tree {
     /// Packs the topmost nodes of the walks.
     fn add_tops(&mut self, mut tops: Vec<(Rect, Node)>) -> Option<u32> {
         let all = tops.iter().fold(Rect::EMPTY, |all, (rect, _)| all.union(*rect));
-        tops.sort_by_cached_key(|(rect, _)| hilbert(&all, rect));
+        tops.sort_by_cached_key(|(rect, _)| hilbert(&all, (rect.min + rect.max) * 0.5));
         while tops.len() > 1 {
             let below = self.nodes.len() as u32;
             self.nodes.extend(tops.iter().map(|(_, node)| *node));
@@ -212,32 +212,4 @@ impl Oriented {
         let y = (self.min.y - b).max(b - self.max.y).max(0.0);
         x * x + y * y
     }
-}
-
-/// Position of the middle of a box along a Hilbert curve of 2^32 cells over another one.
-fn hilbert(all: &Rect, inside: &Rect) -> u64 {
-    const SIDE: u64 = 1 << 16;
-    let size = all.max - all.min;
-    let point = (inside.min + inside.max) * 0.5;
-    let cell = |offset: f64, size: f64| {
-        // The cast saturates, so an empty or infinite size does no harm.
-        ((offset / size * SIDE as f64) as u64).min(SIDE - 1)
-    };
-    let mut x = cell(point.x - all.min.x, size.x);
-    let mut y = cell(point.y - all.min.y, size.y);
-    let mut key = 0;
-    let mut half = SIDE / 2;
-    while half > 0 {
-        let (right, upper) = (u64::from(x & half > 0), u64::from(y & half > 0));
-        key += half * half * ((3 * right) ^ upper);
-        if upper == 0 {
-            if right == 1 {
-                x = (SIDE - 1) - x;
-                y = (SIDE - 1) - y;
-            }
-            std::mem::swap(&mut x, &mut y);
-        }
-        half /= 2;
-    }
-    key
 }

@@ -56,7 +56,8 @@ impl Domain {
         let edges: Vec<_> = (0..rings.points.len() as u32)
             .map(|edge| (rings.point(edge), rings.point(rings.next(edge))))
             .collect();
-        let mut domain = Self::from_walks(walks, &supporting_lines(&edges), report);
+        let mut domain =
+            Self::from_walks(walks, &supporting_lines(&edges), report).with_holes_along_a_curve();
         let mut outer = vec![0; polygons.len()];
         for ring in rings.rings.iter().filter(|ring| !ring.hole) {
             outer[ring.polygon as usize] += 1;

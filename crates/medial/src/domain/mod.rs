@@ -15,6 +15,7 @@ mod geo;
 mod junction;
 mod lines;
 mod nesting;
+mod order;
 mod report;
 mod rings;
 mod sites;

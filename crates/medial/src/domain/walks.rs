@@ -125,8 +125,8 @@ pub struct Walk {
 #[derive(Clone, Debug)]
 pub struct Domain {
     /// Walk by walk, in boundary order.
-    edges: Vec<Edge>,
-    origins: Vec<Origin>,
+    pub(super) edges: Vec<Edge>,
+    pub(super) origins: Vec<Origin>,
     pub(super) walks: Vec<Walk>,
     pub(super) report: Report,
 }

@@ -3,6 +3,7 @@
 mod bounds_tree;
 mod disk;
 mod double;
+mod hilbert;
 mod orient;
 mod point;
 pub mod predicates;
@@ -10,5 +11,6 @@ pub mod predicates;
 pub use bounds_tree::{BoundsTree, Rect, Visitor};
 pub use disk::{Governor, TouchingDisk};
 pub use double::Double;
+pub use hilbert::hilbert;
 pub use orient::{cross_directions, orient2d};
 pub use point::Point;
