@@ -3,7 +3,7 @@ use std::ops::Range;
 
 use super::contacts;
 use super::front::Lune;
-use super::search::{Gap, Proposal, Search};
+use super::search::{Gap, Proposal, SLACK, Search};
 use super::touch::Touch;
 use crate::domain::{Corner, Site};
 use crate::geom::predicates::ExactDisk;
@@ -134,7 +134,7 @@ impl<'s, 'a> Verify<'s, 'a> {
             let Some(p) = self.search.propose(self.gap, site) else { continue };
             let limit = self.best.map_or(self.position, |b| b.position);
             // The radius is convex along a path: an earlier disk is no larger than both ends.
-            let largest = self.disk.radius.max(self.gap.start.radius) * (1.0 + 1e-6);
+            let largest = self.disk.radius.max(self.gap.start.radius) * (1.0 + SLACK);
             if p.position < limit && p.disk.radius <= largest {
                 self.best = Some(p);
                 self.hunting = true;
