@@ -6,6 +6,9 @@ use medial_io::{Feature, Json};
 use serde::Serialize;
 use std::fmt::Write as _;
 
+/// The document of one axis, or what makes no sense in it.
+pub type Document = Result<AxisDocument, String>;
+
 /// What was found about the axis of one feature.
 #[derive(Serialize)]
 pub struct Judged {
@@ -58,10 +61,11 @@ struct Balance {
 
 impl Judged {
     /// The verdict on the axis of a feature, which must have exactly one document.
-    pub fn new(feature: &Feature, domain: &Domain, documents: &[AxisDocument]) -> Self {
+    pub fn new(feature: &Feature, domain: &Domain, documents: &[Document]) -> Self {
         let judged = Self::empty(feature.index, feature.id.clone());
         match documents {
-            [document] => judged.verdict(domain, document),
+            [Ok(document)] => judged.verdict(domain, document),
+            [Err(why)] => judged.fault(why),
             [] => judged.fault("the document has no axis of this feature"),
             [_, _, ..] => judged.fault("the document has several axes of this feature"),
         }

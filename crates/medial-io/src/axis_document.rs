@@ -171,10 +171,8 @@ fn read_line(text: &str, line: &str) -> Result<AxisDocument, Error> {
         return Err(syntax_at(text, offset(text, line), why));
     }
     let document: Document = parse(text, line)?;
-    let wrong = |place: String, why: String| Error::Value {
-        place: format!("feature {}: {place}", document.feature),
-        why,
-    };
+    let feature = document.feature;
+    let wrong = |place: String, why: String| Error::Document { feature, place, why };
     if document.kind != "MedialAxis" {
         return Err(wrong("type".into(), format!("`{}` is no MedialAxis", document.kind)));
     }

@@ -40,6 +40,16 @@ pub enum Error {
         /// What is wrong with it.
         why: String,
     },
+    /// An axis document is well written but makes no sense.
+    #[error("feature {feature}: {place}: {why}")]
+    Document {
+        /// The feature it speaks of.
+        feature: usize,
+        /// Where in the document, such as `path 3`.
+        place: String,
+        /// What is wrong with it.
+        why: String,
+    },
     /// The picture could not be made.
     #[error("the picture cannot be drawn: {why}")]
     Picture {

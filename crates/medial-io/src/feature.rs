@@ -67,12 +67,10 @@ impl Feature {
         Self { index, ..Self::default() }
     }
 
-    /// Adds one polygon, unless it is empty.
+    /// Adds one polygon; an empty one keeps its number.
     pub(crate) fn add_polygon(&mut self, rings: Vec<Vec<Point>>) {
         self.polygonal = true;
-        if rings.iter().any(|ring| !ring.is_empty()) {
-            self.polygons.push(rings);
-        }
+        self.polygons.push(rings);
     }
 
     /// Notes that a part of a collection is left out.

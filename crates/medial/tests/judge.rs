@@ -13,6 +13,16 @@ use support::{brute_force, shapes};
 const LARGE: [&str; 1] = ["star_with_108_corners_on_one_circle"];
 
 #[test]
+fn a_list_that_does_not_start_with_its_smallest_site_is_flagged() {
+    let domain = shapes::domain("l_with_unit_arms");
+    let mut parts = Parts::of(&brute_force::try_axis(&domain).unwrap());
+    let junction = parts.keypoints.iter().position(|k| k.governors.len() > 2).unwrap();
+    parts.keypoints[junction].governors.rotate_left(1);
+    let found = check::defects(&domain, &parts.axis()).defects;
+    assert!(found.iter().any(|d| matches!(d, Defect::ListStart { .. })), "{found:?}");
+}
+
+#[test]
 fn right_axes_of_all_shapes_have_no_defect() {
     let mut failures = Vec::new();
     for name in shapes::names().iter().filter(|name| !LARGE.contains(&name.as_str())) {

@@ -4,8 +4,8 @@ use crate::failure::{Failure, Status};
 use crate::input::Input;
 use crate::output::Output;
 use crate::timings::{Stages, timed};
-use crate::verdicts::Judged;
-use medial_io::axis_document::{self, AxisDocument};
+use crate::verdicts::{Document, Judged};
+use medial_io::{Error, axis_document};
 use std::collections::BTreeMap;
 use std::time::Instant;
 
@@ -55,12 +55,18 @@ pub fn run(args: &CheckArgs) -> Result<Status, Failure> {
     Ok(if n_defects > 0 { Status::Defects } else { status })
 }
 
-/// The documents of each feature.
-fn read_documents(input: &Input) -> Result<BTreeMap<usize, Vec<AxisDocument>>, Failure> {
-    let mut documents: BTreeMap<usize, Vec<AxisDocument>> = BTreeMap::new();
+/// The documents of each feature, or what makes no sense in one.
+fn read_documents(input: &Input) -> Result<BTreeMap<usize, Vec<Document>>, Failure> {
+    let mut documents: BTreeMap<usize, Vec<Document>> = BTreeMap::new();
     for document in axis_document::read(input.text()?) {
-        let document = document.map_err(|error| input.wrong(error))?;
-        documents.entry(document.feature).or_default().push(document);
+        let (feature, document) = match document {
+            Ok(document) => (document.feature, Ok(document)),
+            Err(Error::Document { feature, place, why }) => {
+                (feature, Err(format!("{place}: {why}")))
+            }
+            Err(error) => return Err(input.wrong(error)),
+        };
+        documents.entry(feature).or_default().push(document);
     }
     Ok(documents)
 }

@@ -111,8 +111,8 @@ pub struct MedialAxis {
 impl MedialAxis {
     /// The axis with these parts; `keypoints` come with their cyclic governor lists.
     ///
-    /// Lists are rotated so that they start with their smallest site number. Returns `None` if
-    /// a number points outside its table.
+    /// A list starts with its smallest site number. Returns `None` if a number points outside its
+    /// table.
     #[must_use]
     pub fn from_parts<'a>(
         engine: Engine,
@@ -136,9 +136,7 @@ impl MedialAxis {
         let n_sites = axis.sites.len() as u32;
         for (position, radius, kind, list) in keypoints {
             let first = axis.governors.len() as u32;
-            let least = (0..list.len()).min_by_key(|&k| list[k]).unwrap_or(0);
-            axis.governors.extend_from_slice(&list[least..]);
-            axis.governors.extend_from_slice(&list[..least]);
+            axis.governors.extend_from_slice(list);
             let governors = (first, axis.governors.len() as u32);
             axis.keypoints.push(Keypoint { position, radius, kind, governors });
         }

@@ -64,7 +64,7 @@ impl Domain {
         }
         for (polygon, parts) in (0..).zip(domain.parts(polygons.len())) {
             let at = Place { polygon, ring: 0, index: 0, lone: rings.lone };
-            if parts == 0 {
+            if parts == 0 && outer[polygon as usize] > 0 {
                 return Err(DomainError::Empty { at });
             } else if parts > outer[polygon as usize] {
                 if options.strict {

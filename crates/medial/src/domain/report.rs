@@ -34,6 +34,8 @@ pub enum Repair {
     /// `degenerate_hole`: a hole with fewer than three distinct points, or all on one line, was
     /// dropped.
     DegenerateHole,
+    /// `empty_polygon`: a polygon without points was left out; its number stays free.
+    EmptyPolygon,
     /// `reversed`: the ring was turned round, so that the interior lies to its left.
     Reversed,
     /// `regrouped`: the ring was found an outer ring or a hole by its depth, against its place in
@@ -51,11 +53,12 @@ pub enum Repair {
 
 impl Repair {
     /// All kinds, in order.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 11] = [
         Self::RepeatedPoint,
         Self::StraightCorner,
         Self::Spike,
         Self::DegenerateHole,
+        Self::EmptyPolygon,
         Self::Reversed,
         Self::Regrouped,
         Self::SplitEdge,
@@ -72,6 +75,7 @@ impl Repair {
             Self::StraightCorner => "straight_corner",
             Self::Spike => "spike",
             Self::DegenerateHole => "degenerate_hole",
+            Self::EmptyPolygon => "empty_polygon",
             Self::Reversed => "reversed",
             Self::Regrouped => "regrouped",
             Self::SplitEdge => "split_edge",

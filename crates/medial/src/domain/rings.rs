@@ -61,6 +61,10 @@ impl<'a> Rings<'a> {
             lone,
         };
         for (polygon, list) in polygons.iter().enumerate() {
+            if !options.strict && !lone && list.iter().all(Vec::is_empty) {
+                report.push(Repair::EmptyPolygon, polygon as u32, 0, Vec::new());
+                continue;
+            }
             let before = rings.rings.len();
             let mut degenerate = None;
             for (index, points) in list.iter().enumerate() {

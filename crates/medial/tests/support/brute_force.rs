@@ -36,8 +36,13 @@ pub fn try_axis(domain: &Domain) -> Result<MedialAxis, String> {
         degrees[path.from as usize] += 1;
         degrees[path.to as usize] += 1;
     }
-    let lists: Vec<Vec<u32>> =
-        points.iter().map(|p| p.list.iter().map(|site| number[site]).collect()).collect();
+    let from_least = |p: &Found| {
+        let mut list: Vec<u32> = p.list.iter().map(|site| number[site]).collect();
+        let least = (0..list.len()).min_by_key(|&k| list[k]).unwrap_or(0);
+        list.rotate_left(least);
+        list
+    };
+    let lists: Vec<Vec<u32>> = points.iter().map(from_least).collect();
     let keypoints = points.iter().zip(&degrees).zip(&lists).map(|((p, &degree), list)| {
         let kind = match degree {
             _ if p.disk.is_none() => KeypointKind::End,

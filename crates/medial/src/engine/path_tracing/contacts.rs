@@ -24,6 +24,11 @@ pub(super) fn sort(
     }
     contacts.sort_unstable();
     contacts.dedup();
+    let precise = exact.filter(|_| disk.bound > CLEAR_ANGLE * disk.radius).map(|e| {
+        let (position, radius) = e.approximate();
+        TouchingDisk { origin: disk.origin, centre: position - disk.origin, radius, bound: 0.0 }
+    });
+    let disk = precise.as_ref().unwrap_or(disk);
     let mut by_angle: Vec<(f64, Site)> =
         contacts.iter().map(|&s| (angle(domain, disk, s), s)).collect();
     by_angle.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
@@ -35,7 +40,10 @@ pub(super) fn sort(
     };
     let first = (0..n).max_by(|&a, &b| gap(a).total_cmp(&gap(b))).unwrap_or(0);
     by_angle.rotate_left(first);
-    let clear = CLEAR_ANGLE.max(4.0 * disk.bound / disk.radius);
+    let centre = disk.position();
+    let rounding = f64::EPSILON * (centre.x.abs() + centre.y.abs());
+    // An order of neighbours holds within half a turn only.
+    let clear = CLEAR_ANGLE.max(8.0 * (disk.bound + rounding) / disk.radius).min(1.0);
     let mut start = 0;
     while start < n {
         let mut end = start + 1;

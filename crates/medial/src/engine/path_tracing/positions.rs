@@ -10,6 +10,10 @@ use crate::domain::{Domain, Site};
 use crate::geom::predicates::ExactDisk;
 use crate::geom::{Double, Governor, Point};
 
+/// How many times the doubt about a start goes into the radius before no second disk of the same
+/// triple can be meant.
+const FAR_APART: f64 = 64.0;
+
 /// Least spread of the normals with which Newton steps in doubles converge; below it the exact
 /// disk is evaluated.
 const LEAST_SPREAD: f64 = 1e-12;
@@ -28,18 +32,24 @@ const RESIDUAL_ERROR: f64 = 1.0 / (1_u128 << 90) as f64;
 
 /// Centre and radius of a keypoint, within 4 ulp of max(|x|, |y|, radius).
 ///
-/// `centre` and `radius` are a start of about 1e-9 relative accuracy or better; `known` is a
-/// triple that defines the disk.
+/// `centre` and `radius` are a start, off by at most `doubt`; `known` is a triple that defines the
+/// disk.
 pub(super) fn position(
     domain: &Domain,
     list: &[Site],
     known: &[Site; 3],
     centre: Point,
     radius: f64,
+    doubt: f64,
 ) -> Option<(Point, f64)> {
     let triple = best_triple(domain, list, centre).unwrap_or(*known);
     let governors = triple.map(|s| domain.governor(s));
-    if let Some(precise) = Precise::new(&governors, centre, radius).and_then(|mut p| p.refine()) {
+    // Far from the start there may be another disk of the same three elements.
+    let same = |&(c, r): &(Point, f64)| {
+        (c - centre).norm() + (r - radius).abs() <= 4.0 * doubt && doubt <= r / FAR_APART
+    };
+    let precise = Precise::new(&governors, centre, radius).and_then(|mut p| p.refine());
+    if let Some(precise) = precise.filter(same) {
         return Some(precise);
     }
     let exact = |t: &[Site; 3]| ExactDisk::new(t.map(|s| domain.element(s)));
@@ -237,7 +247,7 @@ impl Precise {
             let (b, e) = (n2 - n1, n3 - n1);
             let d = b.cross(e);
             // Below this the solution in doubles no longer converges.
-            if d.is_nan() || d.abs() <= LEAST_SPREAD {
+            if d.is_nan() || d <= LEAST_SPREAD {
                 return None;
             }
             let (p12, p13) = (rho[0] - rho[1], rho[0] - rho[2]);
@@ -245,7 +255,7 @@ impl Precise {
             let spread = (n2 - n3).norm() + (n3 - n1).norm() + (n1 - n2).norm();
             let rest = rho.iter().map(|r| r.abs()).fold(0.0, f64::max);
             let error = RESIDUAL_ERROR * self.sizes();
-            let new = 4.0 * spread / d.abs() * (rest + error);
+            let new = 4.0 * spread / d * (rest + error);
             if new >= bound / 2.0 {
                 break;
             }

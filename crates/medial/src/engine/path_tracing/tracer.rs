@@ -248,15 +248,22 @@ impl<'a> Tracer<'a> {
             }
         }
         let number = |s: &Site| number[s.0 as usize];
-        let governors: Vec<u32> = self.contacts.iter().map(number).collect();
+        let governors: Vec<u32> = self
+            .knots
+            .iter()
+            .flat_map(|knot| from_least(&self.contacts[knot.contacts.clone()]))
+            .map(number)
+            .collect();
         let mut keypoints = Vec::with_capacity(self.knots.len());
         for knot in &self.knots {
             let list = &self.contacts[knot.contacts.clone()];
             let (centre, radius) = match &knot.triple {
                 None => (knot.centre, 0.0),
-                Some(triple) => position(domain, list, triple, knot.centre, knot.radius).ok_or(
-                    EngineError::Internal { stage: "placing a keypoint", place: knot.centre },
-                )?,
+                Some(triple) => {
+                    position(domain, list, triple, knot.centre, knot.radius, knot.doubt).ok_or(
+                        EngineError::Internal { stage: "placing a keypoint", place: knot.centre },
+                    )?
+                }
             };
             let kind = match knot.gaps.len() {
                 1 => KeypointKind::End,
