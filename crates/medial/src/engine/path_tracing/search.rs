@@ -80,6 +80,9 @@ pub(super) const SLACK: f64 = 1e-9;
 /// the path or bans a site, so none of the shapes met comes near.
 const MOST_TRIES: usize = 100_000;
 
+/// Sites that the last resort weighs before it takes in all there are.
+const WIDEST: usize = 64;
+
 /// Tries before only exact arithmetic proposes.
 const FLOATING_TRIES: usize = 48;
 
@@ -142,7 +145,7 @@ impl<'a> Search<'a> {
             let mut site = self.first_on_path(&gap, &hidden).ok_or_else(|| self.broken(&gap))?;
             if last_hidden.replace(site) == Some(site) {
                 // Proposals led past the ring once: the first contact of all is the end.
-                let all = self.everything();
+                let all = self.everything(&gap);
                 site = self.exact_first(&gap, &all).ok_or_else(|| self.broken(&gap))?;
             }
             let next = self.proposal_or_exact(&gap, site);
@@ -302,25 +305,51 @@ impl<'a> Search<'a> {
         {
             return Ok(self.proposal_or_exact(gap, site));
         }
-        // Nothing that was met will do: take in everything, however far.
-        if *known == usize::MAX {
-            return Err(self.broken(gap));
+        // Nothing that was met will do: take in what comes before and after it on the boundary.
+        while seen.len() < WIDEST {
+            self.widen(gap, seen);
+            if seen.len() == std::mem::replace(known, seen.len()) {
+                break;
+            }
+            if let Some(site) = self.exact_first(gap, seen) {
+                return Ok(self.proposal_or_exact(gap, site));
+            }
         }
         *known = usize::MAX;
-        *seen = self.everything();
+        *seen = self.everything(gap);
         match self.exact_first(gap, seen) {
             Some(site) => Ok(self.proposal_or_exact(gap, site)),
             None => Err(self.broken(gap)),
         }
     }
 
-    /// All sites of the polygon that are not banned.
-    fn everything(&self) -> Vec<Site> {
+    /// Adds the neighbours along the boundary of some sites.
+    fn widen(&self, gap: &Gap, sites: &mut Vec<Site>) {
+        for k in 0..sites.len() {
+            for site in [self.domain.ahead(sites[k]), self.domain.behind(sites[k])] {
+                if self.may_be_met(gap, site) && !sites.contains(&site) {
+                    sites.push(site);
+                }
+            }
+        }
+    }
+
+    /// All sites that the path can meet.
+    fn everything(&self, gap: &Gap) -> Vec<Site> {
         let is_site =
             |s: &Site| s.is_edge() || self.domain.edge(s.index()).corner != Corner::Convex;
         let both = |k| [Site::corner(k), Site::edge(k)];
         let all = self.tree.items().flat_map(both);
-        all.filter(|s| is_site(s) && !self.banned.contains(s)).collect()
+        all.filter(|&s| is_site(&s) && self.may_be_met(gap, s)).collect()
+    }
+
+    /// Whether a site is not banned and lies on a part of the boundary that is ahead.
+    fn may_be_met(&self, gap: &Gap, site: Site) -> bool {
+        // A corner may end the part ahead.
+        let edge = site.index();
+        let ahead =
+            |f: Front| f.holds(edge) || !site.is_edge() && f.holds(self.domain.edge(edge).prev);
+        gap.front.is_none_or(ahead) && !self.banned.contains(&site)
     }
 
     /// The certified disk of a triple, and the exact one where doubles would not certify.
