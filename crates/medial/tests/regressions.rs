@@ -35,3 +35,8 @@ fn a_ring_on_the_path_is_met_though_one_of_its_edges_proposes_a_disk_far_away() 
 fn an_edge_of_another_component_that_ends_in_the_first_corner_makes_no_keypoint() {
     is_right("issue_2_edge_of_another_component_ends_at_the_first_corner.wkt");
 }
+
+#[test]
+fn contacts_in_a_gap_of_half_an_ulp_are_sorted_exactly() {
+    is_right("issue_2_two_holes_half_an_ulp_apart.wkt");
+}

@@ -6,8 +6,7 @@ use crate::geom::{Point, TouchingDisk, cross_directions};
 
 /// Angles of footpoints closer than this, in radians, are ordered exactly.
 ///
-/// Their own error is at most the disk's bound over its radius, far below in all but the worst
-/// of cases, where the bound takes its place.
+/// Where the disk's bound is not far below that share of its radius, all are.
 const CLEAR_ANGLE: f64 = 1e-6;
 
 /// Sorts contacts counterclockwise by footpoint and drops repetitions.
@@ -24,11 +23,18 @@ pub(super) fn sort(
     }
     contacts.sort_unstable();
     contacts.dedup();
-    let precise = exact.filter(|_| disk.bound > CLEAR_ANGLE * disk.radius).map(|e| {
-        let (position, radius) = e.approximate();
-        TouchingDisk { origin: disk.origin, centre: position - disk.origin, radius, bound: 0.0 }
-    });
-    let disk = precise.as_ref().unwrap_or(disk);
+    if contacts.len() == 3 && triple.iter().all(|s| contacts.contains(s)) {
+        contacts.copy_from_slice(triple);
+        return;
+    }
+    let centre = disk.position();
+    let rounding = f64::EPSILON * (centre.x.abs() + centre.y.abs());
+    if let Some(exact) = exact
+        && 8.0 * (disk.bound + rounding) > CLEAR_ANGLE * disk.radius
+    {
+        sort_exactly(domain, exact, contacts);
+        return;
+    }
     let mut by_angle: Vec<(f64, Site)> =
         contacts.iter().map(|&s| (angle(domain, disk, s), s)).collect();
     by_angle.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
@@ -40,16 +46,12 @@ pub(super) fn sort(
     };
     let first = (0..n).max_by(|&a, &b| gap(a).total_cmp(&gap(b))).unwrap_or(0);
     by_angle.rotate_left(first);
-    let centre = disk.position();
-    let rounding = f64::EPSILON * (centre.x.abs() + centre.y.abs());
-    // An order of neighbours holds within half a turn only.
-    let clear = CLEAR_ANGLE.max(8.0 * (disk.bound + rounding) / disk.radius).min(1.0);
     let mut start = 0;
     while start < n {
         let mut end = start + 1;
         while end < n {
             let step = (by_angle[end].0 - by_angle[end - 1].0).rem_euclid(std::f64::consts::TAU);
-            if step > clear {
+            if step > CLEAR_ANGLE {
                 break;
             }
             end += 1;
@@ -59,6 +61,29 @@ pub(super) fn sort(
     }
     contacts.clear();
     contacts.extend(by_angle.iter().map(|&(_, s)| s));
+}
+
+/// Sorts without any angle: by the side of one contact, then by turns within each half.
+fn sort_exactly(domain: &Domain, disk: &ExactDisk, contacts: &mut Vec<Site>) {
+    // Runs share a footpoint; each is sorted by its first site.
+    let heads: Vec<Site> = contacts
+        .iter()
+        .copied()
+        .filter(|&s| !contacts.iter().any(|&before| follows(domain, before, s)))
+        .collect();
+    let Some((&first, others)) = heads.split_first() else { return };
+    let order = |a: Site, b: Site| exact_order(domain, Some(disk), a, b);
+    // Less: counterclockwise of the first one by less than half a turn; equal: opposite.
+    let mut others: Vec<(Ordering, Site)> = others.iter().map(|&s| (order(first, s), s)).collect();
+    others.sort_by(|a, b| a.0.cmp(&b.0).then_with(|| order(a.1, b.1)));
+    let all = std::mem::take(contacts);
+    for head in std::iter::once(first).chain(others.into_iter().map(|o| o.1)) {
+        let mut next = Some(head);
+        while let Some(site) = next {
+            contacts.push(site);
+            next = all.iter().copied().find(|&s| follows(domain, site, s));
+        }
+    }
 }
 
 fn angle(domain: &Domain, disk: &TouchingDisk, site: Site) -> f64 {
