@@ -227,7 +227,8 @@ fn round(bytes: &mut Bytes) -> Vec<Ring> {
     let mut kept = Vec::new();
     while kept.len() < 3 {
         let seldom = 1 + bytes.below(9) as u8;
-        kept = all.iter().filter(|_| bytes.byte() % seldom == 0).copied().collect::<Ring>();
+        kept =
+            all.iter().filter(|_| bytes.byte().is_multiple_of(seldom)).copied().collect::<Ring>();
         if bytes.is_empty() {
             kept = all.clone();
         }

@@ -16,7 +16,7 @@ impl Tally {
     pub fn count(&self, accepted: bool) {
         let yes = self.accepted.fetch_add(u64::from(accepted), Ordering::Relaxed);
         let all = self.all.fetch_add(1, Ordering::Relaxed) + 1;
-        if all.is_power_of_two() && all >= 1 << 12 || all % (1 << 18) == 0 {
+        if all.is_power_of_two() && all >= 1 << 12 || all.is_multiple_of(1 << 18) {
             eprintln!("accepted: {} of {all}", yes + u64::from(accepted));
         }
     }
