@@ -408,7 +408,7 @@ fn half(domain: &Domain) -> Parts {
         position: Point::new(2.5, 1.0),
         radius: 1.0,
         kind: KeypointKind::Transition,
-        governors: vec![plateau.left, plateau.right],
+        governors: vec![plateau.left.min(plateau.right), plateau.left.max(plateau.right)],
     };
     let (a, b) = (a as u32, b as u32);
     // The ends on the right keep no path; take them away with theirs.
