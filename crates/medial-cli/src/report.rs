@@ -108,9 +108,11 @@ pub fn repairs(repairs: &Repairs, lone: bool) -> Vec<(bool, Entry)> {
 
 fn action(repair: Repair) -> Action {
     match repair {
-        Repair::DegenerateHole | Repair::Spike | Repair::Bridge | Repair::RepeatedPoint => {
-            Action::Dropped
-        }
+        Repair::DegenerateHole
+        | Repair::EmptyPolygon
+        | Repair::Spike
+        | Repair::Bridge
+        | Repair::RepeatedPoint => Action::Dropped,
         _ => Action::Repaired,
     }
 }
@@ -122,6 +124,7 @@ fn told(repair: Repair) -> String {
         Repair::StraightCorner => "straight corners are merged",
         Repair::Spike => "spikes are removed",
         Repair::DegenerateHole => "the hole encloses no area and is dropped",
+        Repair::EmptyPolygon => "the polygon has no points and is left out",
         Repair::Reversed => "the ring is turned round",
         Repair::Regrouped => "the ring is an outer ring or a hole by its depth",
         Repair::SplitEdge => "edges are split where corners lie on them",

@@ -54,7 +54,9 @@ fn collections_give_their_polygons() {
         "GEOMETRYCOLLECTION (POINT (0 0), POLYGON ((0 0, 1 0, 1 1)), \
          GEOMETRYCOLLECTION (MULTIPOLYGON (((5 0, 6 0, 6 1)), EMPTY)), LINESTRING (0 0, 1 1))",
     );
-    assert_eq!(read[0].polygons.len(), 2);
+    // The empty one keeps its number.
+    assert_eq!(read[0].polygons.len(), 3);
+    assert!(read[0].polygons[2].is_empty());
     let codes: Vec<_> = read[0].notes.iter().map(|n| n.code).collect();
     assert_eq!(codes, ["part_not_polygon", "part_not_polygon"]);
 }
@@ -63,7 +65,7 @@ fn collections_give_their_polygons() {
 fn empty_polygons_are_polygons_without_points() {
     for text in ["POLYGON EMPTY", "MULTIPOLYGON Z EMPTY", "MULTIPOLYGON (EMPTY)"] {
         let read = &features(text)[0];
-        assert!(read.polygonal && read.polygons.is_empty(), "{text}");
+        assert!(read.polygonal && read.polygons.concat().is_empty(), "{text}");
     }
     assert!(!features("GEOMETRYCOLLECTION EMPTY")[0].polygonal);
 }
