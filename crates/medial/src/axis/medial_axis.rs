@@ -74,8 +74,23 @@ pub struct Keypoint {
     pub radius: f64,
     /// What meets here.
     pub kind: KeypointKind,
-    /// Range of the keypoint's governors in the axis's list; see [`MedialAxis::governors`].
-    pub(super) governors: (u32, u32),
+    /// Where the keypoint's governors start in the axis's list; see [`MedialAxis::governors`].
+    governors: u32,
+}
+
+impl Keypoint {
+    /// A keypoint whose governors start at `governors` in the common list.
+    pub(crate) fn new(position: Point, radius: f64, kind: KeypointKind, governors: u32) -> Self {
+        Self { position, radius, kind, governors }
+    }
+}
+
+/// Governors of one of these keypoints, which share a list in their order.
+pub(crate) fn governors<'a>(keypoints: &[Keypoint], all: &'a [u32], keypoint: u32) -> &'a [u32] {
+    let keypoint = keypoint as usize;
+    let first = keypoints[keypoint].governors as usize;
+    let last = keypoints.get(keypoint + 1).map_or(all.len(), |k| k.governors as usize);
+    &all[first..last]
 }
 
 /// A piece of the axis with the same two governors all along.
@@ -123,28 +138,33 @@ impl MedialAxis {
         keypoints: impl IntoIterator<Item = (Point, f64, KeypointKind, &'a [u32])>,
         paths: Vec<Path>,
     ) -> Option<Self> {
-        let mut axis = Self {
-            engine,
-            accuracy,
-            complete,
-            side,
-            sites,
-            keypoints: Vec::new(),
-            governors: Vec::new(),
-            paths,
-        };
-        let n_sites = axis.sites.len() as u32;
+        let mut table = Vec::new();
+        let mut governors = Vec::new();
         for (position, radius, kind, list) in keypoints {
-            let first = axis.governors.len() as u32;
-            axis.governors.extend_from_slice(list);
-            let governors = (first, axis.governors.len() as u32);
-            axis.keypoints.push(Keypoint { position, radius, kind, governors });
+            table.push(Keypoint::new(position, radius, kind, governors.len() as u32));
+            governors.extend_from_slice(list);
         }
-        let n_keypoints = axis.keypoints.len() as u32;
-        let sound = axis.governors.iter().all(|&g| g < n_sites)
-            && axis.paths.iter().all(|p| {
+        Self::from_tables(engine, side, accuracy, complete, sites, table, governors, paths)
+    }
+
+    /// The axis with these tables, if every number points into its table.
+    #[allow(clippy::too_many_arguments)]
+    pub(crate) fn from_tables(
+        engine: Engine,
+        side: Side,
+        accuracy: Accuracy,
+        complete: bool,
+        sites: Vec<Site>,
+        keypoints: Vec<Keypoint>,
+        governors: Vec<u32>,
+        paths: Vec<Path>,
+    ) -> Option<Self> {
+        let (n_sites, n_keypoints) = (sites.len() as u32, keypoints.len() as u32);
+        let sound = governors.iter().all(|&g| g < n_sites)
+            && paths.iter().all(|p| {
                 p.from < n_keypoints && p.to < n_keypoints && p.left < n_sites && p.right < n_sites
             });
+        let axis = Self { engine, accuracy, complete, side, sites, keypoints, governors, paths };
         sound.then_some(axis)
     }
 
@@ -170,7 +190,6 @@ impl MedialAxis {
     /// counterclockwise by footpoint, starting with the smallest.
     #[must_use]
     pub fn governors(&self, keypoint: u32) -> &[u32] {
-        let (first, last) = self.keypoints[keypoint as usize].governors;
-        &self.governors[first as usize..last as usize]
+        governors(&self.keypoints, &self.governors, keypoint)
     }
 }

@@ -7,6 +7,7 @@ mod names;
 
 pub use curve::Curve;
 pub use draw::CurveKind;
+pub(crate) use medial_axis::governors;
 pub use medial_axis::{
     Accuracy, Engine, Keypoint, KeypointKind, MedialAxis, Path, Side, Site, SiteKind,
 };

@@ -60,9 +60,13 @@ pub struct TouchingDisk {
     pub bound: f64,
 }
 
+/// Doubles cannot tell whether there is such a disk, or where.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Unsure;
+
 /// Sine-like half angles: twice the sine of half the angle from `i` to `j`.
 fn sigma(c: f64, g: f64) -> f64 {
-    if g >= 0.0 { c / ((1.0 + g) / 2.0).sqrt() } else { (2.0 * (1.0 - g)).sqrt().copysign(c) }
+    if g >= 0.0 { c / ((1.0 + g) / 2.0).sqrt() } else { (2.0 * (1.0 - g)).sqrt() * sign(c) }
 }
 
 /// `(1 + g, 1 - g)` without cancellation, from the sine `c` and the cosine `g`.
@@ -153,6 +157,97 @@ impl TouchingDisk {
         (sound && radius > 0.0).then_some(Self { origin, centre, radius, bound: f64::INFINITY })
     }
 
+    /// The certified disk that touches three elements counterclockwise in the order given.
+    ///
+    /// The same for every rotation of the three, bit for bit. `None` where doubles find none or
+    /// cannot prove it.
+    #[must_use]
+    pub fn touching(governors: &[Governor; 3]) -> Option<Self> {
+        if let Some((edge, corner, other)) = touching_end(governors) {
+            let (&Governor::Edge { direction, .. }, &Governor::Corner(v)) =
+                (&governors[edge], &governors[corner])
+            else {
+                return None;
+            };
+            return Self::on_normal(v, direction, &governors[other]).ok().flatten();
+        }
+        let least = |k: usize| governors[k].anchor();
+        let first = (1..3)
+            .fold(0, |best, k| if least(k).lexicographic(least(best)).is_lt() { k } else { best });
+        let mut turned = *governors;
+        turned.rotate_left(first);
+        let mut disk = Self::guess(&turned, least(first))?;
+        if turned.iter().all(|g| matches!(g, Governor::Edge { .. })) {
+            // The nearest end is the best origin.
+            let centre = disk.position();
+            let mut nearest = f64::INFINITY;
+            for governor in &turned {
+                let Governor::Edge { start, end, .. } = *governor else { continue };
+                for p in [start, end] {
+                    let distance = (p - centre).norm2();
+                    if distance < nearest {
+                        (nearest, disk.origin) = (distance, p);
+                    }
+                }
+            }
+            disk.centre = centre - disk.origin;
+        }
+        disk.certified(&turned)
+    }
+
+    /// The certified disk with its centre on the normal at `v` of an edge that ends there, touching
+    /// one more element; `Ok(None)` if there certainly is none.
+    ///
+    /// # Errors
+    /// [`Unsure`] where doubles cannot tell.
+    #[inline]
+    pub fn on_normal(v: Point, direction: Point, other: &Governor) -> Result<Option<Self>, Unsure> {
+        let normal = direction.perp();
+        let (radius, error) = match *other {
+            Governor::Corner(w) => {
+                // w·w = 2r n·w
+                let w = w - v;
+                let (square, along) = (w.norm2(), normal.dot(w));
+                let radius = square / (2.0 * along);
+                // Each component of the normal is off by at most 4u, w by u of its own.
+                let share = 12.0 * U * square.sqrt() / along;
+                if along.is_nan() || along <= 0.0 || share > 0.125 {
+                    return if -along > 12.0 * U * square.sqrt() { Ok(None) } else { Err(Unsure) };
+                }
+                (radius, radius * (2.0 * share + 8.0 * U))
+            }
+            Governor::Edge { start, end, direction: t } => {
+                // h = r (1 - n·m) for the distance h of the edge's line
+                let from_start = v - start;
+                let q = if t.dot(from_start) > t.dot(end - v) { v - end } else { from_start };
+                let (left, right) = (t.x * q.y, t.y * q.x);
+                let h = left - right;
+                let h_error = 8.0 * U * (left.abs() + right.abs());
+                let cosine = t.dot(direction);
+                let (g, g_error) = if cosine < 0.5 {
+                    (1.0 - cosine, 16.0 * U)
+                } else {
+                    let difference = direction - t;
+                    let square = difference.norm2();
+                    (square / 2.0, 16.0 * U * square.sqrt())
+                };
+                if h.is_nan() || h <= 0.0 || g <= 2.0 * g_error {
+                    return if -h > h_error { Ok(None) } else { Err(Unsure) };
+                }
+                let radius = h / g;
+                let error = (h_error + radius * (g_error + 4.0 * U * g)) / (g - g_error);
+                (radius, error)
+            }
+        };
+        let bound = 2.0 * error + 16.0 * U * radius;
+        let disk = Self { origin: v, centre: normal * radius, radius, bound };
+        if radius > 0.0 && bound < radius && radius.is_finite() {
+            Ok(Some(disk))
+        } else {
+            Err(Unsure)
+        }
+    }
+
     /// The certified disk near this one; `None` where doubles cannot prove it.
     #[must_use]
     pub fn certified(&self, governors: &[Governor; 3]) -> Option<Self> {
@@ -217,16 +312,21 @@ impl TouchingDisk {
     }
 
     /// Unit normal towards the centre, distance and error bound of the residual.
+    #[inline]
     fn distance(&self, g: &Governor) -> Option<(Point, f64, f64)> {
-        let a = g.anchor() - self.origin;
-        let q = self.centre - a;
         match *g {
-            Governor::Corner(_) => {
+            Governor::Corner(p) => {
+                let a = p - self.origin;
+                let q = self.centre - a;
                 let distance = q.norm();
                 let error = U * (4.0 * distance + a.x.abs() + a.y.abs() + self.radius);
                 (distance > 0.0).then(|| (q * (1.0 / distance), distance, error))
             }
-            Governor::Edge { direction: u, .. } => {
+            Governor::Edge { start, end, direction: u } => {
+                // From the nearer end, where rounding is least.
+                let (from_start, from_end) = (start - self.origin, end - self.origin);
+                let (p, q) = (self.centre - from_start, self.centre - from_end);
+                let (a, q) = if p.norm2() <= q.norm2() { (from_start, p) } else { (from_end, q) };
                 let (left, right) = (q.y * u.x, q.x * u.y);
                 let error = U
                     * (8.0 * (left.abs() + right.abs())

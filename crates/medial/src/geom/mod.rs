@@ -1,6 +1,7 @@
 //! Points, and the exact decisions everything else rests on.
 
 mod bounds_tree;
+mod capsule_tree;
 mod disk;
 mod double;
 mod hilbert;
@@ -9,7 +10,8 @@ mod point;
 pub mod predicates;
 
 pub use bounds_tree::{BoundsTree, Rect, Visitor};
-pub use disk::{Governor, TouchingDisk};
+pub use capsule_tree::{CapsuleTree, Hidden, Look, Scope};
+pub use disk::{Governor, TouchingDisk, Unsure};
 pub use double::Double;
 pub use hilbert::hilbert;
 pub use orient::{cross_directions, orient2d};

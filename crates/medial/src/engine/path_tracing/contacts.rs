@@ -1,5 +1,7 @@
 use std::cmp::Ordering;
 
+use smallvec::SmallVec;
+
 use crate::domain::{Corner, Domain, Site};
 use crate::geom::predicates::ExactDisk;
 use crate::geom::{Point, TouchingDisk, cross_directions};
@@ -9,15 +11,18 @@ use crate::geom::{Point, TouchingDisk, cross_directions};
 /// Where the disk's bound is not far below that share of its radius, all are.
 const CLEAR_ANGLE: f64 = 1e-6;
 
+/// Governors of a keypoint; more than a few are rare.
+pub(super) type Contacts = SmallVec<[Site; 8]>;
+
 /// Sorts contacts counterclockwise by footpoint and drops repetitions.
 pub(super) fn sort(
     domain: &Domain,
     disk: &TouchingDisk,
     exact: Option<&ExactDisk>,
     triple: &[Site; 3],
-    contacts: &mut Vec<Site>,
+    contacts: &mut Contacts,
 ) {
-    if contacts.len() == 3 && contacts == triple {
+    if contacts.len() == 3 && contacts[..] == triple[..] {
         // Certified in this order.
         return;
     }
@@ -64,7 +69,7 @@ pub(super) fn sort(
 }
 
 /// Sorts without any angle: by the side of one contact, then by turns within each half.
-fn sort_exactly(domain: &Domain, disk: &ExactDisk, contacts: &mut Vec<Site>) {
+fn sort_exactly(domain: &Domain, disk: &ExactDisk, contacts: &mut Contacts) {
     // Runs share a footpoint; each is sorted by its first site.
     let heads: Vec<Site> = contacts
         .iter()

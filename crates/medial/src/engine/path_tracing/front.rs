@@ -1,7 +1,7 @@
-use std::ops::Range;
-
 use crate::domain::{Domain, Site};
-use crate::geom::{Point, Rect, TouchingDisk};
+use crate::geom::{Hidden, Point, Scope, TouchingDisk};
+
+const U: f64 = f64::EPSILON / 2.0;
 
 /// The part of one boundary walk that a path can meet.
 ///
@@ -39,51 +39,40 @@ impl Front {
         }
     }
 
-    /// Whether any of these edges may be met.
+    /// The edges that cannot be met.
     #[inline]
-    pub fn meets(&self, edges: &Range<u32>) -> bool {
-        let (start, end) = (edges.start, edges.end);
-        if start < self.walk.0 || end > self.walk.1 {
-            true
-        } else if self.first <= self.last {
-            self.first < end && start <= self.last
+    pub fn hidden(&self) -> Hidden {
+        let (start, end) = self.walk;
+        Hidden(if self.first <= self.last {
+            [(start, self.first), (self.last + 1, end)]
         } else {
-            self.first < end || start <= self.last
-        }
+            [(self.last + 1, self.first), (0, 0)]
+        })
     }
 }
 
-/// The half-plane beyond the radical line of the start disk and a disk ahead of it.
+/// Where anything must lie that cuts or touches a disk ahead of an empty one: within the disk, and
+/// beyond the radical line of both.
 ///
-/// The start disk is empty, so only the rest of the other disk can hold anything.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Lune {
-    from: Point,
-    /// Twice the way between the centres.
-    step: Point,
-    /// What `step · (p - from)` must reach.
-    least: f64,
-}
-
-impl Lune {
-    pub const EVERYTHING: Self =
-        Self { from: Point::new(0.0, 0.0), step: Point::new(0.0, 0.0), least: -1.0 };
-
-    /// `doubt` bounds the error of the start's centre and radius.
-    pub fn new(start: Point, radius: f64, doubt: f64, disk: &TouchingDisk) -> Self {
-        let way = disk.centre + (disk.origin - start);
-        let size = disk.radius + radius + way.norm();
-        let bound = if disk.bound.is_finite() { disk.bound } else { 1e-9 * disk.radius };
-        // Each of four lengths of at most `size` is off by that much, and is squared.
-        let margin = 8.0 * size * (bound + doubt + 16.0 * f64::EPSILON * size);
-        let least = way.norm2() - (disk.radius - radius) * (disk.radius + radius) - margin;
-        Self { from: start, step: way * 2.0, least }
+/// `doubt` bounds the error of the empty disk's centre and radius. The disk ahead counts with its
+/// bound; one without a bound is only a proposal.
+pub(super) fn scope(start: Point, radius: f64, doubt: f64, disk: &TouchingDisk) -> Scope {
+    let centre = disk.position();
+    let extent = centre.x.abs().max(centre.y.abs()) + disk.radius;
+    let certain = disk.bound.is_finite();
+    let bound = if certain { disk.bound } else { 0.0 };
+    let reach = (disk.radius + bound) * (1.0 + 64.0 * U) + 64.0 * U * extent;
+    let way = disk.centre + (disk.origin - start);
+    let length = way.norm();
+    let size = disk.radius + radius + length;
+    let bound = if certain { disk.bound } else { 1e-9 * disk.radius };
+    // Each of four lengths of at most `size` is off by that much, and is squared.
+    let margin = 8.0 * size * (bound + doubt + 16.0 * f64::EPSILON * size);
+    let least = length * length - (disk.radius - radius) * (disk.radius + radius) - margin;
+    let offset = least / (2.0 * length);
+    if !offset.is_finite() {
+        return Scope { centre, reach, normal: Point::default(), border: start };
     }
-
-    #[inline]
-    pub fn meets(&self, bounds: &Rect) -> bool {
-        let x = if self.step.x > 0.0 { bounds.max.x } else { bounds.min.x };
-        let y = if self.step.y > 0.0 { bounds.max.y } else { bounds.min.y };
-        self.step.dot(Point::new(x, y) - self.from) >= self.least
-    }
+    let normal = way * (1.0 / length);
+    Scope { centre, reach, normal, border: start + normal * offset }
 }

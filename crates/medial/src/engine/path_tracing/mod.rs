@@ -23,20 +23,24 @@
 //! - Contacts that tie are collected at once, so no path has length zero.
 //! - Where no half-line bounds a path [JPV, Fig. 12] a growing probe finds the third governor.
 
+mod chain;
 mod contacts;
 mod course;
+mod finish;
 mod front;
+mod gaps;
 mod order;
 mod positions;
 mod probe;
 mod rings;
 mod search;
+mod steps;
 mod touch;
 mod tracer;
 mod verify;
 
 pub use search::Candidate;
-pub use tracer::{Step, Steps};
+pub use steps::{Step, Steps};
 
 use super::EngineError;
 use crate::axis::MedialAxis;

@@ -89,7 +89,7 @@ impl Search<'_> {
     /// Whether a verified disk lies ahead of the start; needed only where rings may hide.
     pub(super) fn is_ahead(&self, gap: &Gap, disk: &TouchingDisk, triple: &[Site; 3]) -> bool {
         let Some(start) = gap.start.triple else { return true };
-        let position = gap.course.position(disk);
+        let position = gap.course(self.domain).position(disk);
         let bounds = self.tree.bounds();
         let size = (bounds.max - bounds.min).norm() + disk.radius;
         let doubt = disk.bound + gap.start.doubt + 64.0 * f64::EPSILON * size;

@@ -89,8 +89,9 @@ impl Search<'_> {
             }
             let at_limit = limit.filter(|l| l.1 <= reach);
             let position = at_limit.map_or(reach, |l| l.1);
-            let disk = at_limit.map_or_else(|| gap.course.disk_at(position), |l| Some(l.0));
-            match self.look(gap, disk, position) {
+            let disk =
+                at_limit.map_or_else(|| gap.course(self.domain).disk_at(position), |l| Some(l.0));
+            match self.look(gap, disk) {
                 Look::Hit(hit) => return Some(hit),
                 Look::Clear if blocked == f64::INFINITY => clear = position,
                 Look::Clear => {}
@@ -106,7 +107,7 @@ impl Search<'_> {
             && blocked - clear > SMALLEST_STEP * (blocked + gap.start.radius)
         {
             let position = (clear + blocked) / 2.0;
-            match self.look(gap, gap.course.disk_at(position), position) {
+            match self.look(gap, gap.course(self.domain).disk_at(position)) {
                 Look::Hit(hit) => return Some(hit),
                 Look::Clear => clear = position,
                 Look::Blocked => blocked = position,
@@ -115,9 +116,9 @@ impl Search<'_> {
         best
     }
 
-    fn look(&self, gap: &Gap, disk: Option<TouchingDisk>, position: f64) -> Look {
+    fn look(&self, gap: &Gap, disk: Option<TouchingDisk>) -> Look {
         let Some(disk) = disk else { return Look::Blocked };
-        let mut verify = Verify::hunting(self, gap, disk, position);
+        let mut verify = Verify::hunting(self, gap, (&gap.start, &[]), disk);
         verify.run();
         match verify.best() {
             Some(hit) => Look::Hit(hit),
@@ -137,7 +138,7 @@ impl Search<'_> {
         for site in corners.into_iter().flatten() {
             let governors = gap.triple(site).map(|s| self.domain.governor(s));
             let Some(disk) = TouchingDisk::guess(&governors, gap.start.centre) else { continue };
-            let position = gap.course.position(&disk);
+            let position = gap.course(self.domain).position(&disk);
             if position > 0.0 && first.is_none_or(|f| position < f.1) {
                 first = Some((disk, position));
             }

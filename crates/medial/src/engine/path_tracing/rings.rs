@@ -7,7 +7,7 @@ use std::ops::Range;
 
 use super::search::{Found, Gap};
 use crate::domain::{Domain, Site};
-use crate::geom::{BoundsTree, Governor, Point, Rect, Visitor};
+use crate::geom::{BoundsTree, Governor, Point, Rect, TouchingDisk, Visitor};
 
 /// One corner of every hole of a polygon.
 #[derive(Debug)]
@@ -49,10 +49,52 @@ impl HiddenRings {
 
     /// Corners of rings that may lie in the pocket of a path. Generous: doubles with a margin.
     pub fn suspects(&self, domain: &Domain, gap: &Gap, found: &Found) -> Vec<Site> {
-        let pocket = Pocket::new(domain, gap, found);
-        let mut query = Query { rings: self, domain, gap, pocket, found: Vec::new() };
+        let end = match found {
+            Found::Corner(edge) => Round::corner(domain.edge(*edge).start),
+            Found::Disk { disk, .. } => Round::disk(disk),
+        };
+        let start = Round {
+            centre: gap.start.centre,
+            off: Point::default(),
+            radius: gap.start.radius,
+            doubt: gap.start.doubt,
+        };
+        let link = Link { right: gap.right, left: gap.left, start, end };
+        let mut query = Query {
+            rings: self,
+            domain,
+            pocket: Pocket::new(domain, &link),
+            link,
+            found: Vec::new(),
+        };
         self.tree.visit(&mut query);
         query.found
+    }
+
+    /// Whether any ring may lie in the pocket of one of these pieces of a path.
+    pub fn any(&self, domain: &Domain, links: impl Iterator<Item = Link> + Clone) -> bool {
+        let walk = |s: Site| domain.edge(s.index()).walk;
+        let mut own = None;
+        let mut bounds = Rect::EMPTY;
+        let mut margin: f64 = 0.0;
+        for link in links.clone() {
+            own = Some((walk(link.right), walk(link.left)));
+            let pocket = Pocket::new(domain, &link);
+            bounds = bounds.union(pocket.bounds);
+            margin = margin.max(pocket.margin);
+        }
+        let Some((right, left)) = own else { return false };
+        let mut near = Near { bounds, found: Vec::new() };
+        self.tree.visit(&mut near);
+        near.found.iter().any(|&k| {
+            let site = self.corners[k as usize];
+            let ring = walk(site);
+            ring != right
+                && ring != left
+                && links
+                    .clone()
+                    .any(|link| Pocket::new(domain, &link).holds(domain.edge(site.index()).start))
+        })
     }
 }
 
@@ -69,6 +111,53 @@ fn interleave(x: u32, y: u32) -> u64 {
     spread(x) | (spread(y) << 1)
 }
 
+/// A disk at an end of a piece of a path.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Round {
+    pub centre: Point,
+    /// What rounding took from the centre.
+    pub off: Point,
+    pub radius: f64,
+    pub doubt: f64,
+}
+
+impl Round {
+    pub fn corner(at: Point) -> Self {
+        Self { centre: at, off: Point::default(), radius: 0.0, doubt: 0.0 }
+    }
+
+    pub fn disk(disk: &TouchingDisk) -> Self {
+        let centre = disk.position();
+        let off = disk.centre - (centre - disk.origin);
+        Self { centre, off, radius: disk.radius, doubt: disk.bound }
+    }
+}
+
+/// A piece of a path between two of its disks.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Link {
+    pub right: Site,
+    pub left: Site,
+    pub start: Round,
+    pub end: Round,
+}
+
+/// The items of a box.
+struct Near {
+    bounds: Rect,
+    found: Vec<u32>,
+}
+
+impl Visitor for Near {
+    fn enters(&self, bounds: &Rect, _items: Range<u32>) -> bool {
+        bounds.meets(&self.bounds)
+    }
+
+    fn item(&mut self, item: u32) {
+        self.found.push(item);
+    }
+}
+
 /// Spokes and footpoints around a path: a polygon that holds all its pocket.
 #[derive(Debug)]
 struct Pocket {
@@ -80,8 +169,8 @@ struct Pocket {
 }
 
 impl Pocket {
-    fn new(domain: &Domain, gap: &Gap, found: &Found) -> Self {
-        let origin = gap.start.centre;
+    fn new(domain: &Domain, link: &Link) -> Self {
+        let origin = link.start.centre;
         let length = |p: Point| p.x.abs() + p.y.abs();
         // How far away numbers come from that enter the outline.
         let mut reach: f64 = 0.0;
@@ -94,23 +183,19 @@ impl Pocket {
             }
         };
         let c0 = Point::default();
-        let (c1, radius, doubt) = match found {
-            Found::Corner(edge) => (domain.edge(*edge).start - origin, 0.0, 0.0),
-            Found::Disk { disk, .. } => {
-                (disk.centre + (disk.origin - origin), disk.radius, disk.bound)
-            }
-        };
+        let c1 = (link.end.centre - origin) + link.end.off;
+        let (radius, doubt) = (link.end.radius, link.end.doubt);
         let outline = [
             c0,
-            foot(gap.right, c0),
-            foot(gap.right, c1),
+            foot(link.right, c0),
+            foot(link.right, c1),
             c1,
-            foot(gap.left, c1),
-            foot(gap.left, c0),
+            foot(link.left, c1),
+            foot(link.left, c0),
         ];
         let extent = outline.iter().map(|&p| length(p)).fold(0.0, f64::max);
         let size = length(origin) + extent + radius + reach;
-        let margin = 1e-9 * extent + 64.0 * f64::EPSILON * size + 4.0 * (doubt + gap.start.doubt);
+        let margin = 1e-9 * extent + 64.0 * f64::EPSILON * size + 4.0 * (doubt + link.start.doubt);
         let mut bounds = outline.iter().fold(Rect::EMPTY, |b, &p| b.with(p + origin));
         bounds.min = bounds.min - Point::new(margin, margin);
         bounds.max = bounds.max + Point::new(margin, margin);
@@ -139,7 +224,7 @@ impl Pocket {
 struct Query<'q> {
     rings: &'q HiddenRings,
     domain: &'q Domain,
-    gap: &'q Gap,
+    link: Link,
     pocket: Pocket,
     found: Vec<Site>,
 }
@@ -153,7 +238,7 @@ impl Visitor for Query<'_> {
         let site = self.rings.corners[item as usize];
         let walk = |s: Site| self.domain.edge(s.index()).walk;
         // The rings of the governors are touched, so they do not lie in the pocket whole.
-        let own = walk(site) == walk(self.gap.right) || walk(site) == walk(self.gap.left);
+        let own = walk(site) == walk(self.link.right) || walk(site) == walk(self.link.left);
         if !own && self.pocket.holds(self.domain.edge(site.index()).start) {
             self.found.push(site);
         }

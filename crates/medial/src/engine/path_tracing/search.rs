@@ -5,6 +5,10 @@
 //! counterclockwise order is a keypoint however it was proposed, and the next one on the path
 //! unless a whole ring lies between its disk and the one at the start ([`super::rings`]).
 
+use std::cell::OnceCell;
+
+use super::chain::Passed;
+use super::contacts::Contacts;
 use super::course::Course;
 use super::front::Front;
 use super::rings::HiddenRings;
@@ -13,7 +17,7 @@ use super::verify::{Verdict, Verify};
 use crate::domain::{Corner, Domain, Site};
 use crate::engine::EngineError;
 use crate::geom::predicates::ExactDisk;
-use crate::geom::{BoundsTree, Governor, Point, Rect, TouchingDisk};
+use crate::geom::{CapsuleTree, Governor, Point, TouchingDisk};
 
 /// A third governor that was tried, with its disk.
 #[derive(Clone, Copy, Debug)]
@@ -44,7 +48,7 @@ pub(super) enum Found {
     Corner(u32),
     /// At a keypoint: its disk, three sites that define it, and all its governors in
     /// counterclockwise order.
-    Disk { disk: TouchingDisk, triple: [Site; 3], contacts: Vec<Site> },
+    Disk { disk: TouchingDisk, triple: [Site; 3], contacts: Contacts },
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -54,20 +58,33 @@ pub(super) struct Proposal {
     pub position: f64,
 }
 
-/// The path whose end is looked for.
-#[derive(Clone, Copy, Debug)]
+/// The path whose end is looked for, or a piece of it.
+#[derive(Clone, Debug)]
 pub(super) struct Gap {
     pub right: Site,
     pub left: Site,
     pub start: Start,
-    pub course: Course,
     pub front: Option<Front>,
+    course: OnceCell<Course>,
 }
 
 impl Gap {
+    pub fn new(right: Site, left: Site, start: Start, front: Option<Front>) -> Self {
+        Self { right, left, start, front, course: OnceCell::new() }
+    }
+
     /// The triple that `site` would complete, counterclockwise.
     pub fn triple(&self, site: Site) -> [Site; 3] {
         [self.right, site, self.left]
+    }
+
+    /// The bisector.
+    #[inline]
+    pub fn course(&self, domain: &Domain) -> &Course {
+        self.course.get_or_init(|| {
+            let [right, left] = [self.right, self.left].map(|s| domain.governor(s));
+            Course::new(&right, &left, self.start.centre, self.start.radius)
+        })
     }
 }
 
@@ -89,9 +106,17 @@ const FLOATING_TRIES: usize = 48;
 /// Looks for ends of paths in one polygon of a domain.
 pub(super) struct Search<'a> {
     pub domain: &'a Domain,
-    pub tree: BoundsTree,
-    rings: Option<HiddenRings>,
-    banned: Vec<Site>,
+    pub tree: CapsuleTree,
+    pub rings: Option<HiddenRings>,
+    pub banned: Vec<Site>,
+    /// Transitions of the last path that was chased.
+    pub passed: Vec<Passed>,
+    /// Governors of the piece of it that was looked at last.
+    pub link: (Site, Site),
+    /// What takes over from the governors where both leave at once.
+    pub tie: Option<(Site, Site)>,
+    /// Edges beyond convex corners that a path would have met before its last piece began.
+    pub behind: Vec<u32>,
     /// What was tried for the last path, for those who watch.
     pub tried: Vec<Candidate>,
 }
@@ -101,22 +126,27 @@ impl<'a> Search<'a> {
     pub fn new(domain: &'a Domain, walks: std::ops::Range<usize>) -> Self {
         let first = domain.walks()[walks.start].first;
         let n: u32 = domain.walks()[walks.clone()].iter().map(|w| w.len).sum();
-        let tree = BoundsTree::new(first, n, |k| {
-            Rect::EMPTY.with(domain.edge(k).start).with(domain.end(k))
-        });
+        let tree = CapsuleTree::new(first, n, |k| (domain.edge(k).start, domain.end(k)));
         let rings = HiddenRings::new(domain, walks);
-        Self { domain, tree, rings, banned: Vec::new(), tried: Vec::new() }
+        Self {
+            domain,
+            tree,
+            rings,
+            banned: Vec::new(),
+            passed: Vec::new(),
+            link: (Site(0), Site(0)),
+            tie: None,
+            behind: Vec::new(),
+            tried: Vec::new(),
+        }
     }
 
     /// The end of the path that leaves `start` between `right` and `left`.
     pub fn find(&mut self, right: Site, left: Site, start: Start) -> Result<Found, EngineError> {
         self.tried.clear();
         self.banned.clear();
-        let [r, l] = [right, left].map(|s| self.domain.governor(s));
-        let course = Course::new(r, l, start.centre, start.radius);
-        let front = Front::new(self.domain, right, left);
-        let gap = Gap { right, left, start, course, front };
-        let mut found = if self.runs_into_corner(&gap) {
+        let gap = Gap::new(right, left, start, Front::new(self.domain, right, left));
+        let mut found = if self.runs_into_corner(right, left) {
             Found::Corner(left.index())
         } else {
             let first = self.first_proposal(&gap);
@@ -159,8 +189,7 @@ impl<'a> Search<'a> {
     }
 
     /// Whether the path ends in the convex corner between its two governors.
-    fn runs_into_corner(&self, gap: &Gap) -> bool {
-        let (right, left) = (gap.right, gap.left);
+    pub fn runs_into_corner(&self, right: Site, left: Site) -> bool {
         right.is_edge()
             && left.is_edge()
             && self.domain.edge(right.index()).next == left.index()
@@ -182,7 +211,7 @@ impl<'a> Search<'a> {
                 return None;
             }
         }
-        let position = gap.course.position(&disk);
+        let position = gap.course(self.domain).position(&disk);
         let slack = SLACK * (disk.radius + gap.start.radius);
         (position >= -slack).then_some(Proposal { site, disk, position })
     }
@@ -226,8 +255,9 @@ impl<'a> Search<'a> {
                 continue;
             };
             let floating = round < FLOATING_TRIES;
-            let position = gap.course.position(&disk);
-            let mut verify = Verify::certified(self, gap, triple, disk, position, floating);
+            let position = gap.course(self.domain).position(&disk);
+            let start = (&gap.start, &[][..]);
+            let mut verify = Verify::certified(self, gap, start, triple, disk, floating);
             verify.run();
             let verdict = verify.verdict(exact);
             match verdict {
@@ -380,7 +410,7 @@ impl<'a> Search<'a> {
         let triple = gap.triple(site);
         let exact = self.exact(&triple)?;
         let disk = rounded(&exact, self.domain.edge(site.index()).start);
-        Some(Proposal { site, disk, position: gap.course.position(&disk) })
+        Some(Proposal { site, disk, position: gap.course(self.domain).position(&disk) })
     }
 
     /// What an edge is to an exact disk; the governors themselves are not asked.
@@ -399,7 +429,7 @@ fn rounded(exact: &ExactDisk, origin: Point) -> TouchingDisk {
 }
 
 /// Contacts strictly between the left and the right governor at the back of an arriving path.
-fn contact_behind(contacts: &[Site], right: Site, left: Site) -> Option<Vec<Site>> {
+pub(super) fn contact_behind(contacts: &[Site], right: Site, left: Site) -> Option<Vec<Site>> {
     let n = contacts.len();
     let at = |s: Site| contacts.iter().position(|&c| c == s);
     let (l, r) = (at(left)?, at(right)?);

@@ -1,13 +1,15 @@
 use std::cmp::Ordering;
-use std::ops::Range;
 
-use super::contacts;
-use super::front::Lune;
-use super::search::{Gap, Proposal, SLACK, Search};
+use super::chain::Passed;
+use smallvec::SmallVec;
+
+use super::contacts::{self, Contacts};
+use super::front::scope;
+use super::search::{Gap, Proposal, SLACK, Search, Start};
 use super::touch::Touch;
-use crate::domain::{Corner, Site};
+use crate::domain::{Corner, Edge, Site};
 use crate::geom::predicates::ExactDisk;
-use crate::geom::{Point, Rect, TouchingDisk, Visitor};
+use crate::geom::{Hidden, Look, Point, Scope, TouchingDisk};
 
 const U: f64 = f64::EPSILON / 2.0;
 
@@ -15,7 +17,7 @@ const U: f64 = f64::EPSILON / 2.0;
 #[derive(Clone, Debug)]
 pub(super) enum Verdict {
     /// Empty, and every governor is touched in its zone: all contacts, counterclockwise.
-    Clear(Vec<Site>),
+    Clear(Contacts),
     /// Something cuts it, and this comes earlier on the path.
     Better(Proposal),
     /// This site cuts it, exactly.
@@ -29,11 +31,19 @@ pub(super) enum Verdict {
 /// One walk through the tree with one disk.
 pub(super) struct Verify<'s, 'a> {
     search: &'s Search<'a>,
+    /// The path, and the piece of it that the disk looked into belongs to.
     gap: &'s Gap,
+    /// That piece, if it is not the last one.
+    earlier: Option<Gap>,
+    /// Pieces of the path before, which follow the empty disk.
+    passed: &'s [Passed],
+    /// Number of the piece: that of the one after all passed, at first.
+    link: usize,
+    /// The empty disk at the start of all.
+    anchor: &'s Start,
     /// Sites of the certified disk.
     triple: [Site; 3],
     certified: TouchingDisk,
-    position: f64,
     /// The disk that is looked into: the certified one, or a better proposal.
     disk: TouchingDisk,
     best: Option<Proposal>,
@@ -41,54 +51,58 @@ pub(super) struct Verify<'s, 'a> {
     hunting: bool,
     /// Whether doubles may propose.
     floating: bool,
-    centre: Point,
-    reach2: f64,
-    lune: Lune,
-    cut: Vec<u32>,
-    doubtful: Vec<u32>,
+    scope: Scope,
+    cut: SmallVec<[u32; 8]>,
+    doubtful: SmallVec<[u32; 8]>,
 }
 
 impl<'s, 'a> Verify<'s, 'a> {
-    /// Looks for anything that cuts the certified disk of a triple.
+    /// Looks for anything that cuts the certified disk of a triple, at the end of several pieces of a
+    /// path, the last of which is `gap`; `anchor` is the empty disk at the start of the first one.
+    #[inline]
     pub fn certified(
         search: &'s Search<'a>,
         gap: &'s Gap,
+        (anchor, passed): (&'s Start, &'s [Passed]),
         triple: [Site; 3],
         disk: TouchingDisk,
-        position: f64,
         floating: bool,
     ) -> Self {
-        let mut verify = Self {
+        Self {
             search,
             gap,
+            earlier: None,
+            passed,
+            link: passed.len(),
+            anchor,
             triple,
             certified: disk,
-            position,
             disk,
             best: None,
             hunting: false,
             floating,
-            centre: Point::default(),
-            reach2: 0.0,
-            lune: Lune::EVERYTHING,
-            cut: Vec::new(),
-            doubtful: Vec::new(),
-        };
-        verify.look_into(disk);
-        verify
+            scope: scope(anchor.centre, anchor.radius, anchor.doubt, &disk),
+            cut: SmallVec::new(),
+            doubtful: SmallVec::new(),
+        }
     }
 
     /// Looks for the first proposal within an uncertified disk of the path.
     pub fn hunting(
         search: &'s Search<'a>,
         gap: &'s Gap,
+        start: (&'s Start, &'s [Passed]),
         disk: TouchingDisk,
-        position: f64,
     ) -> Self {
         let triple = [gap.right, gap.right, gap.left];
-        let mut verify = Self::certified(search, gap, triple, disk, position, true);
+        let mut verify = Self::certified(search, gap, start, triple, disk, true);
         verify.hunting = true;
         verify
+    }
+
+    /// The piece of the path that the best proposal lies on.
+    pub fn link(&self) -> usize {
+        self.link
     }
 
     /// The best proposal met.
@@ -102,45 +116,84 @@ impl<'s, 'a> Verify<'s, 'a> {
     }
 
     pub fn run(&mut self) {
-        self.search.tree.visit(self);
+        let hidden = self.gap.front.map_or(Hidden::default(), |f| f.hidden());
+        self.search.tree.visit(hidden, self);
     }
 
     fn look_into(&mut self, disk: TouchingDisk) {
         self.disk = disk;
-        self.centre = disk.position();
-        let size = self.centre.x.abs().max(self.centre.y.abs()) + disk.radius;
-        let bound = if disk.bound.is_finite() { disk.bound } else { 0.0 };
-        let reach = (disk.radius + bound) * (1.0 + 64.0 * U) + 64.0 * U * size;
-        self.reach2 = reach * reach * (1.0 + 8.0 * U);
-        let start = &self.gap.start;
-        self.lune = Lune::new(start.centre, start.radius, start.doubt, &disk);
+        let start = self.anchor;
+        self.scope = scope(start.centre, start.radius, start.doubt, &disk);
     }
 
-    /// Sites of an edge that could become third governors.
-    fn sites_of(&self, edge: u32) -> impl Iterator<Item = Site> + use<> {
+    /// Sites of an edge that could become third governors: itself, and the corners at its ends.
+    fn sites_of(&self, edge: u32) -> [Option<Site>; 3] {
         let domain = self.search.domain;
         let next = domain.edge(edge).next;
         let corner = |k: u32| (domain.edge(k).corner != Corner::Convex).then_some(Site::corner(k));
-        [Some(Site::edge(edge)), corner(edge), corner(next)].into_iter().flatten()
+        [Some(Site::edge(edge)), corner(edge), corner(next)]
     }
 
-    /// Takes note of an edge that cuts the disk looked into.
-    fn cuts(&mut self, edge: u32) {
+    /// Takes note of an edge that cuts the disk looked into; `near` tells which part of it is nearest:
+    /// its start if negative, its end if positive, or the edge itself.
+    fn cuts(&mut self, edge: u32, near: i8) {
         self.cut.push(edge);
         if !self.floating {
             return;
         }
-        for site in self.sites_of(edge) {
-            let Some(p) = self.search.propose(self.gap, site) else { continue };
-            let limit = self.best.map_or(self.position, |b| b.position);
-            // The radius is convex along a path: an earlier disk is no larger than both ends.
-            let largest = self.disk.radius.max(self.gap.start.radius) * (1.0 + SLACK);
+        let (search, link) = (self.search, self.link);
+        let went_back = link > 0 && self.go_back(edge);
+        let gap = self.earlier.as_ref().unwrap_or(self.gap);
+        // The radius is convex along a path: an earlier disk is no larger than both ends.
+        let largest = self.disk.radius.max(gap.start.radius) * (1.0 + SLACK);
+        let last = if went_back { &self.passed[self.link].disk } else { &self.disk };
+        let limit = gap.course(search.domain).position(last);
+        let sites = self.sites_of(edge);
+        let order = match near {
+            ..0 => [1, 0, 2],
+            0 => [0, 1, 2],
+            1.. => [2, 0, 1],
+        };
+        for site in order.into_iter().filter_map(|k| sites[k]) {
+            let Some(p) = search.propose(gap, site) else { continue };
             if p.position < limit && p.disk.radius <= largest {
                 self.best = Some(p);
                 self.hunting = true;
                 self.look_into(p.disk);
+                return;
             }
         }
+        if went_back {
+            // It cuts an earlier disk, but no proposal comes of it.
+            self.link = link;
+            self.earlier = (link < self.passed.len()).then(|| self.piece(link));
+        }
+    }
+
+    /// A piece of the path that was passed.
+    fn piece(&self, link: usize) -> Gap {
+        let Passed { right, left, .. } = self.passed[link];
+        let start = match link.checked_sub(1) {
+            None => *self.anchor,
+            Some(before) => Start::at(&self.passed[before].disk),
+        };
+        Gap::new(right, left, start, self.gap.front)
+    }
+
+    /// Goes back to the first piece of the path whose end an edge cuts, if that is an earlier one.
+    fn go_back(&mut self, edge: u32) -> bool {
+        let domain = self.search.domain;
+        let (a, b) = (domain.edge(edge).start, domain.end(edge));
+        let first = self.passed[..self.link]
+            .iter()
+            .rposition(|p| !cuts_clearly(&p.disk, a, b, domain.edge(edge)))
+            .map_or(0, |k| k + 1);
+        if first == self.link {
+            return false;
+        }
+        self.earlier = Some(self.piece(first));
+        self.link = first;
+        true
     }
 
     /// Whether a corner governor stands at an end of the edge, and at which.
@@ -160,16 +213,18 @@ impl<'s, 'a> Verify<'s, 'a> {
     }
 
     /// The verdict on the certified disk, once the walk is done.
-    pub fn verdict(self, exact: Option<ExactDisk>) -> Verdict {
+    pub fn verdict(&self, exact: Option<ExactDisk>) -> Verdict {
         let search = self.search;
         if let Some(best) = self.best {
             return Verdict::Better(best);
         }
         if !self.cut.is_empty() {
-            return Verdict::Cut(self.cut.iter().flat_map(|&k| self.sites_of(k)).collect());
+            return Verdict::Cut(
+                self.cut.iter().flat_map(|&k| self.sites_of(k)).flatten().collect(),
+            );
         }
         let mut exact = exact;
-        let mut contacts: Vec<Site> = Vec::with_capacity(4);
+        let mut contacts = Contacts::new();
         let domain = search.domain;
         let need = |exact: &mut Option<ExactDisk>| -> bool {
             if exact.is_none() {
@@ -260,21 +315,35 @@ impl<'s, 'a> Verify<'s, 'a> {
     }
 }
 
-impl Visitor for Verify<'_, '_> {
+/// Whether an edge, seen from its front, clearly cuts a disk.
+pub(super) fn cuts_clearly(disk: &TouchingDisk, a: Point, b: Point, edge: &Edge) -> bool {
+    let (a, b) = (a - disk.origin, b - disk.origin);
+    let q = disk.centre - a;
+    let x = edge.direction.dot(q);
+    let clear = disk.radius * (1.0 - 1e-9);
+    let distance2 = if x <= 0.0 {
+        q.norm2()
+    } else if x >= edge.length {
+        (disk.centre - b).norm2()
+    } else {
+        let h = edge.direction.cross(q);
+        h * h
+    };
+    distance2 < clear * clear
+}
+
+impl Look for Verify<'_, '_> {
     #[inline]
-    fn enters(&self, bounds: &Rect, items: Range<u32>) -> bool {
-        bounds.distance2(self.centre) <= self.reach2
-            && self.lune.meets(bounds)
-            && self.gap.front.is_none_or(|f| f.meets(&items))
+    fn scope(&self) -> &Scope {
+        &self.scope
     }
 
-    fn item(&mut self, edge: u32) {
+    #[inline]
+    fn edge(&mut self, edge: u32) {
         let domain = self.search.domain;
         let site = Site::edge(edge);
-        if site == self.gap.right
-            || site == self.gap.left
-            || self.gap.front.is_some_and(|f| !f.holds(edge))
-        {
+        let gap = self.earlier.as_ref().unwrap_or(self.gap);
+        if site == gap.right || site == gap.left {
             return;
         }
         let record = domain.edge(edge);
@@ -287,19 +356,19 @@ impl Visitor for Verify<'_, '_> {
             let clear = d.radius * (1.0 - 1e-9);
             let next = record.next;
             let own = |s: Site| !s.is_edge() && (s.index() == edge || s.index() == next);
-            if own(self.gap.right) || own(self.gap.left) {
+            if own(gap.right) || own(gap.left) {
                 return;
             }
-            let distance2 = if x <= 0.0 {
-                q.norm2()
+            let (distance2, near) = if x <= 0.0 {
+                (q.norm2(), -1)
             } else if x >= record.length {
-                (d.centre - (domain.end(edge) - d.origin)).norm2()
+                ((d.centre - (domain.end(edge) - d.origin)).norm2(), 1)
             } else {
                 let h = record.direction.cross(q);
-                h * h
+                (h * h, 0)
             };
             if distance2 < clear * clear {
-                self.cuts(edge);
+                self.cuts(edge, near);
             }
             return;
         }
@@ -312,22 +381,22 @@ impl Visitor for Verify<'_, '_> {
             let b = domain.end(edge) - d.origin;
             let x = if at_start { x } else { -record.direction.dot(d.centre - b) };
             if x > doubt {
-                self.cuts(edge);
+                self.cuts(edge, 0);
             } else if x >= -doubt {
                 self.doubtful.push(edge);
             }
             return;
         }
-        let distance = if x <= 0.0 {
-            q.norm()
+        let (distance, near) = if x <= 0.0 {
+            (q.norm(), -1)
         } else if x >= record.length {
-            (d.centre - (domain.end(edge) - d.origin)).norm()
+            ((d.centre - (domain.end(edge) - d.origin)).norm(), 1)
         } else {
-            record.direction.cross(q).abs()
+            (record.direction.cross(q).abs(), 0)
         };
         if distance > d.radius + doubt {
         } else if distance < d.radius - doubt {
-            self.cuts(edge);
+            self.cuts(edge, near);
         } else {
             self.doubtful.push(edge);
         }

@@ -1,0 +1,511 @@
+//! Follows a path over many transitions with one query.
+//!
+//! # Contract
+//! [`Search::chase`] gives the transitions of a path and the keypoint after them, all of them
+//! proved; or nothing, and then [`Search::find`] must take the path one keypoint at a time.
+//!
+//! # Method
+//! 1. From an empty disk, follow the two boundary chains of the governors: which of the two leaves
+//!    first is decided by the zone of the other one, in doubles with a bound, else exactly.
+//! 2. Where the boundary turns left, or the radius has grown, the disk there is looked into.
+//! 3. If something cuts it, go back while the disks passed are cut as well; what cuts is then the
+//!    third governor of an earlier disk, and that one is looked into.
+//!
+//! Two empty disks, their spokes, and the pieces of the chains between their footpoints close a
+//! pocket. The chains turn right only, so inside the pocket the axis is their bisector, and only a
+//! whole ring could change it ([`super::rings`]).
+//!
+//! # Departures
+//! The paper looks for every transition by itself [JPV, §3.1].
+
+use std::cmp::Ordering;
+
+use super::contacts::follows;
+use super::front::Front;
+use super::rings::{Link, Round};
+use super::search::{Found, Gap, Proposal, Search, Start, contact_behind};
+use super::verify::{Verdict, Verify, cuts_clearly};
+use crate::domain::{Corner, Edge, Site};
+use crate::geom::{Point, TouchingDisk, Unsure};
+
+/// Half an ulp of 1.
+const U: f64 = f64::EPSILON / 2.0;
+
+/// Transitions after which the disk is looked into, however little the radius grows.
+const LONGEST: usize = 32;
+
+/// Growth of the radius after which the disk is looked into.
+const GROWTH: f64 = 2.0;
+
+/// Growth of the radius in one step before which a smaller disk is looked into first.
+const LEAP: f64 = 4.0;
+
+/// Elements to either side of one that was met beyond its end that are proposed instead.
+const FEW: usize = 4;
+
+/// Disks looked into before the path is left to exact arithmetic.
+const MOST_ROUNDS: usize = 64;
+
+/// A transition that was passed.
+#[derive(Clone, Debug)]
+pub(super) struct Passed {
+    /// Governors of the path that ends here.
+    pub right: Site,
+    pub left: Site,
+    pub disk: TouchingDisk,
+    /// All governors, counterclockwise; the last one repeated if there are three.
+    pub contacts: [Site; 4],
+    pub n_contacts: u8,
+}
+
+/// What happens next on a path.
+#[derive(Clone, Copy, Debug)]
+enum Event {
+    /// A governor leaves: the disk on the normal at its end, and what governs in its place.
+    Leave { disk: TouchingDisk, site: Site },
+    /// The boundary turns left: the edge beyond the corner is met.
+    Meet { disk: TouchingDisk, site: Site },
+}
+
+/// Where a governor of a path leaves: on the normal of an edge at a point, where the site takes over.
+#[derive(Clone, Copy, Debug)]
+struct Normal {
+    edge: u32,
+    at: Point,
+    site: Site,
+}
+
+/// How one governor of a path ends.
+#[derive(Clone, Copy, Debug)]
+enum Ending {
+    /// On a normal.
+    Normal(Normal),
+    /// In a convex corner, before which this edge is met.
+    Turn { edge: u32 },
+}
+
+/// Where a disk of the path lies to the end of a governor.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Reach {
+    /// The governor has not left yet.
+    Within,
+    /// It leaves here, as far as doubles can tell.
+    Level,
+    /// It left before.
+    Past,
+}
+
+impl Event {
+    fn disk(&self) -> &TouchingDisk {
+        match self {
+            Self::Leave { disk, .. } | Self::Meet { disk, .. } => disk,
+        }
+    }
+}
+
+impl Search<'_> {
+    /// The end of the path that leaves `start` between `right` and `left`, with what it passes on
+    /// the way in `self.passed`; `None` if doubles and a few exact questions cannot tell.
+    pub fn chase(&mut self, right: Site, left: Site, start: Start) -> Option<Found> {
+        self.passed.clear();
+        self.banned.clear();
+        let front = Front::new(self.domain, right, left);
+        let (mut r, mut l) = (right, left);
+        let mut here = start;
+        let sizes = [right, left].map(|s| {
+            if s.is_edge() { self.domain.edge(s.index()).length / 2.0 } else { f64::INFINITY }
+        });
+        let least = sizes[0].min(sizes[1]);
+        let mut known = if least.is_finite() { start.radius.max(least) } else { start.radius };
+        loop {
+            if self.runs_into_corner(r, l) {
+                self.link = (r, l);
+                let end = Round::corner(self.domain.edge(l.index()).start);
+                return self.is_open(r, l, start, end).then_some(Found::Corner(l.index()));
+            }
+            let gap = Gap::new(r, l, here, front);
+            let event = self.next_event(&gap).ok()?;
+            let cut = |disk: &TouchingDisk| {
+                self.behind.iter().any(|&e| {
+                    let edge = self.domain.edge(e);
+                    cuts_clearly(disk, edge.start, self.domain.end(e), edge)
+                })
+            };
+            if self.passed.last().is_some_and(|last| event.is_none() || cut(&last.disk)) {
+                // The last transition passed is none: something cuts its disk.
+                if let Some(last) = self.passed.pop() {
+                    self.link = (last.right, last.left);
+                    // The second of its contacts is new, on whatever side.
+                    let end = Proposal { site: last.contacts[1], disk: last.disk, position: 0.0 };
+                    return self.settle_chain(start, front, end);
+                }
+            }
+            let radius = event.map_or(f64::INFINITY, |e| e.disk().radius);
+            if let Some(Event::Leave { disk, site }) = event
+                && radius <= GROWTH * known
+                && self.passed.len() < LONGEST
+            {
+                (r, l) = self.pass(r, l, disk, site);
+                here = Start::at(&disk);
+                continue;
+            }
+            let mut end = event.map(|event| {
+                let (Event::Leave { disk, site } | Event::Meet { disk, site }) = event;
+                Proposal { site, disk, position: gap.course(self.domain).position(&disk) }
+            });
+            known = known.max(here.radius);
+            self.link = (r, l);
+            if radius > LEAP * known {
+                end = self.approach(start, &gap, end, known);
+            }
+            return self.settle_chain(start, front, end?);
+        }
+    }
+
+    fn ending_right(&self, r: Site) -> Option<Ending> {
+        let k = r.index();
+        if !r.is_edge() {
+            return Some(Ending::Normal(Normal {
+                edge: k,
+                at: self.domain.edge(k).start,
+                site: Site::edge(k),
+            }));
+        }
+        let next = self.domain.edge(k).next;
+        let beyond = self.domain.edge(next);
+        match beyond.corner {
+            Corner::Reflex => {
+                Some(Ending::Normal(Normal { edge: k, at: beyond.start, site: Site::corner(next) }))
+            }
+            Corner::Convex => Some(Ending::Turn { edge: next }),
+            Corner::Straight => None,
+        }
+    }
+
+    fn ending_left(&self, l: Site) -> Option<Ending> {
+        let k = l.index();
+        let edge = self.domain.edge(k);
+        if !l.is_edge() {
+            return Some(Ending::Normal(Normal {
+                edge: edge.prev,
+                at: edge.start,
+                site: Site::edge(edge.prev),
+            }));
+        }
+        match edge.corner {
+            Corner::Reflex => {
+                Some(Ending::Normal(Normal { edge: k, at: edge.start, site: Site::corner(k) }))
+            }
+            Corner::Convex => Some(Ending::Turn { edge: edge.prev }),
+            Corner::Straight => None,
+        }
+    }
+
+    /// The disk in which a governor leaves while `other` stays, if it ever leaves.
+    fn leave(&self, normal: Normal, other: Site) -> Result<Option<Event>, Unsure> {
+        let direction = self.domain.edge(normal.edge).direction;
+        let other = self.domain.governor(other);
+        let disk = TouchingDisk::on_normal(normal.at, direction, &other)?;
+        Ok(disk.map(|disk| Event::Leave { disk, site: normal.site }))
+    }
+
+    /// The disk that meets the edge beyond a convex corner, if it lies ahead.
+    fn meet(&mut self, gap: &Gap, edge: u32) -> Option<Event> {
+        let site = Site::edge(edge);
+        let disk = TouchingDisk::touching(&gap.triple(site).map(|s| self.domain.governor(s)))?;
+        let ahead = gap.course(self.domain).position(&disk) > 0.0;
+        if !ahead {
+            self.behind.push(edge);
+        }
+        ahead.then_some(Event::Meet { disk, site })
+    }
+
+    /// Where a certified disk ahead lies to the normal on which a governor leaves, on the right of the
+    /// path if `side` is 1 and on its left if it is -1.
+    fn reach(
+        &self,
+        gap: &Gap,
+        normal: Normal,
+        disk: &TouchingDisk,
+        side: f64,
+    ) -> Result<Reach, Unsure> {
+        let along = |edge: &Edge, p: Point| {
+            let a = p - disk.origin;
+            let q = disk.centre - a;
+            let x = edge.direction.dot(q);
+            let size = 16.0 * (q.x.abs() + q.y.abs()) + a.x.abs() + a.y.abs() + 2.0 * disk.radius;
+            (side * x, disk.bound + U * size)
+        };
+        let (x, doubt) = along(self.domain.edge(normal.edge), normal.at);
+        if x > doubt {
+            return Ok(Reach::Past);
+        }
+        // The other border of the zone.
+        let governor = if side > 0.0 { gap.right } else { gap.left };
+        let k = governor.index();
+        let (behind, from) = match (governor.is_edge(), side > 0.0) {
+            (true, true) => (k, self.domain.edge(k).start),
+            (true, false) => (k, self.domain.end(k)),
+            (false, true) => (self.domain.edge(k).prev, normal.at),
+            (false, false) => (k, normal.at),
+        };
+        let (y, back_doubt) = along(self.domain.edge(behind), from);
+        if y < -back_doubt {
+            return Err(Unsure);
+        }
+        if !governor.is_edge() && !self.turns(gap, normal.at, disk, side) {
+            // The zone was left on the way and entered anew from behind.
+            return Ok(Reach::Past);
+        }
+        Ok(if x < -doubt { Reach::Within } else { Reach::Level })
+    }
+
+    /// Whether the spoke of a corner turns on the way to a disk as it must, by less than half a turn:
+    /// clockwise on the right, counterclockwise on the left.
+    fn turns(&self, gap: &Gap, corner: Point, disk: &TouchingDisk, side: f64) -> bool {
+        let from = gap.start.centre - corner;
+        let to = disk.centre + (disk.origin - corner);
+        let turn = side * from.cross(to);
+        let sizes = (from.x.abs() + from.y.abs(), to.x.abs() + to.y.abs());
+        let doubt = gap.start.doubt + disk.bound + 8.0 * U * (sizes.0 + sizes.1);
+        let doubt = 2.0 * doubt * (sizes.0 + sizes.1);
+        turn < -doubt || turn <= doubt && from.dot(to) > 0.0
+    }
+
+    /// What comes next between two governors, as far as their own chains tell.
+    fn next_event(&mut self, gap: &Gap) -> Result<Option<Event>, Unsure> {
+        let (r, l) = (gap.right, gap.left);
+        self.tie = None;
+        self.behind.clear();
+        let endings = self.ending_right(r).zip(self.ending_left(l)).ok_or(Unsure)?;
+        let (edge, normal, other, side) = match endings {
+            (Ending::Turn { edge: e }, Ending::Turn { edge: f }) => {
+                let (a, b) = (self.meet(gap, e), self.meet(gap, f));
+                let position = |e: &Event| gap.course(self.domain).position(e.disk());
+                return Ok(match (a, b) {
+                    (Some(a), Some(b)) => Some(if position(&b) < position(&a) { b } else { a }),
+                    (a, b) => a.or(b),
+                });
+            }
+            (Ending::Normal(right), Ending::Normal(left)) => {
+                return self.next_leave(gap, right, left);
+            }
+            (Ending::Turn { edge }, Ending::Normal(normal)) => (edge, normal, r, -1.0),
+            (Ending::Normal(normal), Ending::Turn { edge }) => (edge, normal, l, 1.0),
+        };
+        let Some(meet) = self.meet(gap, edge) else { return self.leave(normal, other) };
+        Ok(match self.reach(gap, normal, meet.disk(), side)? {
+            Reach::Past => Some(self.leave(normal, other)?.ok_or(Unsure)?),
+            Reach::Within | Reach::Level => Some(meet),
+        })
+    }
+
+    /// Which of two governors leaves first.
+    fn next_leave(
+        &mut self,
+        gap: &Gap,
+        right: Normal,
+        left: Normal,
+    ) -> Result<Option<Event>, Unsure> {
+        let (r, l) = (gap.right, gap.left);
+        let first = |this: &Self, event: Option<Event>, allowed: &[Reach]| match event {
+            Some(b) if allowed.contains(&this.reach(gap, right, b.disk(), 1.0)?) => Ok(Some(b)),
+            Some(_) => Err(Unsure),
+            None => Ok(None),
+        };
+        let Some(a) = self.leave(right, l)? else {
+            return first(self, self.leave(left, r)?, &[Reach::Within]);
+        };
+        match self.reach(gap, left, a.disk(), -1.0)? {
+            Reach::Within => Ok(Some(a)),
+            Reach::Past => {
+                let b = self.leave(left, r)?.ok_or(Unsure)?;
+                first(self, Some(b), &[Reach::Within])
+            }
+            Reach::Level => {
+                let exact = self.exact(&[r, right.site, l]).ok_or(Unsure)?;
+                let (from, to) = (self.domain.edge(left.edge).start, self.domain.end(left.edge));
+                match exact.along(from, to, left.at) {
+                    Ordering::Greater => Ok(Some(a)),
+                    Ordering::Less => {
+                        let b = self.leave(left, r)?.ok_or(Unsure)?;
+                        first(self, Some(b), &[Reach::Within, Reach::Level])
+                    }
+                    Ordering::Equal => {
+                        self.tie = Some((right.site, left.site));
+                        Ok(Some(a))
+                    }
+                }
+            }
+        }
+    }
+
+    /// Takes note of a transition and gives the governors of the path beyond it.
+    fn pass(&mut self, r: Site, l: Site, disk: TouchingDisk, site: Site) -> (Site, Site) {
+        let (contacts, n_contacts, disk, beyond) = match self.tie.take() {
+            Some((new_r, new_l)) => {
+                let disk = self.facing(&[r, new_r], &[new_l, l]).unwrap_or(disk);
+                ([r, new_r, new_l, l], 4, disk, (new_r, new_l))
+            }
+            None if follows(self.domain, r, site) => ([r, site, l, l], 3, disk, (site, l)),
+            None => ([r, site, l, l], 3, disk, (r, site)),
+        };
+        self.passed.push(Passed { right: r, left: l, disk, contacts, n_contacts });
+        beyond
+    }
+
+    /// The disk of two runs of two sites that face each other: the same from either side.
+    fn facing(&self, one: &[Site; 2], other: &[Site; 2]) -> Option<TouchingDisk> {
+        let (run, third) = if one[0] < other[0] { (one, other[0]) } else { (other, one[0]) };
+        let governors = [run[0], run[1], third].map(|s| self.domain.governor(s));
+        TouchingDisk::touching(&governors)
+    }
+
+    /// Looks into ever larger disks before an end that is far away or not known, and proposes what
+    /// they meet.
+    fn approach(
+        &mut self,
+        anchor: Start,
+        gap: &Gap,
+        end: Option<Proposal>,
+        known: f64,
+    ) -> Option<Proposal> {
+        let mut reach = GROWTH * known;
+        while end.is_none_or(|e| 2.0 * reach < e.position) && reach.is_finite() {
+            let Some(disk) = gap.course(self.domain).disk_at(reach) else { break };
+            if end.is_some_and(|e| disk.radius * LEAP > e.disk.radius) {
+                break;
+            }
+            let start = (&anchor, &self.passed[..]);
+            let mut verify = Verify::hunting(self, gap, start, disk);
+            verify.run();
+            let (link, hit, cut) = (verify.link(), verify.best(), verify.is_cut());
+            if hit.is_some() {
+                self.go_back(link);
+                return hit;
+            }
+            if cut {
+                return None;
+            }
+            reach *= LEAP;
+        }
+        end
+    }
+
+    /// Drops what was passed from a link on, whose governors are then in `self.link`.
+    fn go_back(&mut self, link: usize) {
+        if let Some(passed) = self.passed.get(link) {
+            self.link = (passed.right, passed.left);
+            self.passed.truncate(link);
+        }
+    }
+
+    /// Looks into the proposed end until nothing cuts it.
+    fn settle_chain(
+        &mut self,
+        anchor: Start,
+        front: Option<Front>,
+        mut end: Proposal,
+    ) -> Option<Found> {
+        for _ in 0..MOST_ROUNDS {
+            let (right, left) = self.link;
+            let here = self.passed.last().map_or(anchor, |p| Start::at(&p.disk));
+            let gap = Gap::new(right, left, here, front);
+            let triple = gap.triple(end.site);
+            let disk = if end.disk.bound.is_finite() {
+                end.disk
+            } else {
+                let governors = triple.map(|s| self.domain.governor(s));
+                match TouchingDisk::touching(&governors) {
+                    Some(d) => d,
+                    None => {
+                        return None;
+                    }
+                }
+            };
+            let start = (&anchor, &self.passed[..]);
+            let mut verify = Verify::certified(self, &gap, start, triple, disk, true);
+            verify.run();
+            let link = verify.link();
+            match verify.verdict(None) {
+                Verdict::Better(next) => {
+                    self.go_back(link);
+                    end = next;
+                }
+                Verdict::Clear(contacts) => {
+                    let (mut right, mut left) = (right, left);
+                    // The last transitions passed may be in this very disk.
+                    while let Some(last) = self.passed.pop_if(|p| {
+                        let n = usize::from(p.n_contacts);
+                        p.contacts[..n].iter().all(|s| contacts.contains(s))
+                    }) {
+                        (right, left) = (last.right, last.left);
+                    }
+                    self.link = (right, left);
+                    if self.rings.is_some() {
+                        let slack = 1e-6 * (disk.radius + here.radius) + disk.bound + here.doubt;
+                        if gap.course(self.domain).position(&disk) <= slack
+                            || contact_behind(&contacts, right, left).is_some()
+                            || !self.is_open(right, left, anchor, Round::disk(&disk))
+                        {
+                            return None;
+                        }
+                    }
+                    return Some(Found::Disk { disk, triple, contacts });
+                }
+                Verdict::OffEdge => {
+                    self.banned.push(end.site);
+                    match self.beside(&gap, end.site) {
+                        Some(e) => end = e,
+                        None => {
+                            return None;
+                        }
+                    }
+                }
+                Verdict::Cut(_) | Verdict::Earlier(_) => return None,
+            }
+        }
+        None
+    }
+
+    /// The nearest proposal that the boundary makes around an edge that is met beyond its end.
+    fn beside(&self, gap: &Gap, site: Site) -> Option<Proposal> {
+        let mut best: Option<Proposal> = None;
+        let (mut ahead, mut behind) = (site, site);
+        for _ in 0..FEW {
+            (ahead, behind) = (self.domain.ahead(ahead), self.domain.behind(behind));
+            for site in [ahead, behind] {
+                let proposal = self.propose(gap, site);
+                if let Some(p) = proposal
+                    && best.is_none_or(|b| p.position < b.position)
+                {
+                    best = Some(p);
+                }
+            }
+            if best.is_some() {
+                break;
+            }
+        }
+        best
+    }
+
+    /// Whether no ring can lie in the pocket of the path passed and one more piece.
+    fn is_open(&self, r: Site, l: Site, anchor: Start, end: Round) -> bool {
+        let Some(rings) = &self.rings else { return true };
+        let first = Round {
+            centre: anchor.centre,
+            off: Point::default(),
+            radius: anchor.radius,
+            doubt: anchor.doubt,
+        };
+        let passed = &self.passed;
+        let start = move |k: usize| if k == 0 { first } else { Round::disk(&passed[k - 1].disk) };
+        let links = (0..=passed.len()).map(move |k| match passed.get(k) {
+            Some(p) => {
+                Link { right: p.right, left: p.left, start: start(k), end: Round::disk(&p.disk) }
+            }
+            None => Link { right: r, left: l, start: start(k), end },
+        });
+        !rings.any(self.domain, links)
+    }
+}

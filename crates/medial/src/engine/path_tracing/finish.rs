@@ -1,0 +1,169 @@
+//! What was traced, and the axis made of it.
+
+use super::chain::Passed;
+use super::positions::position;
+use super::search::Start;
+use crate::axis::{
+    self, Accuracy, Engine, Keypoint, KeypointKind, MedialAxis, Path, Side, SiteKind,
+};
+use crate::domain::{Domain, Site};
+use crate::engine::EngineError;
+use crate::geom::{Point, TouchingDisk};
+
+/// Share of its size by which a position may be off before it is rounded: three units in the last
+/// place of the four that are promised, at most.
+const PRECISE: f64 = 1.5 * f64::EPSILON;
+
+/// A keypoint that must be placed more precisely.
+#[derive(Clone, Copy, Debug)]
+struct Rough {
+    keypoint: u32,
+    /// Sites that define its exact disk.
+    triple: [Site; 3],
+    /// Bound on the error of its position and radius.
+    doubt: f64,
+}
+
+/// Keypoints and paths, with sites by their numbers in the domain.
+#[derive(Debug, Default)]
+pub(super) struct Traced {
+    pub keypoints: Vec<Keypoint>,
+    pub governors: Vec<u32>,
+    pub paths: Vec<Path>,
+    rough: Vec<Rough>,
+}
+
+impl Traced {
+    /// Whether a keypoint has these governors, from the smallest one on.
+    pub fn has_governors(&self, keypoint: u32, list: &[Site]) -> bool {
+        let own = axis::governors(&self.keypoints, &self.governors, keypoint);
+        own.len() == list.len() && own.iter().zip(list).all(|(&a, b)| a == b.0)
+    }
+
+    /// Governors of a keypoint, from the smallest one on.
+    pub fn governors_of(&self, keypoint: u32) -> Vec<Site> {
+        axis::governors(&self.keypoints, &self.governors, keypoint)
+            .iter()
+            .copied()
+            .map(Site)
+            .collect()
+    }
+
+    /// Adds a keypoint with its governors, from the smallest one on.
+    pub fn add(&mut self, position: Point, radius: f64, kind: KeypointKind, list: &[Site]) -> u32 {
+        let number = self.keypoints.len() as u32;
+        let first = self.governors.len() as u32;
+        self.governors.extend(list.iter().map(|s| s.0));
+        self.keypoints.push(Keypoint::new(position, radius, kind, first));
+        number
+    }
+
+    /// Adds a keypoint that may be in need of a more precise position: unless `fixed` is precise, the
+    /// disk of all its governors that does not depend on the way it was found.
+    pub fn add_disk(
+        &mut self,
+        fixed: Option<&TouchingDisk>,
+        disk: &TouchingDisk,
+        triple: [Site; 3],
+        list: &[Site],
+    ) -> u32 {
+        if let Some(fixed) = fixed {
+            let position = fixed.position();
+            let size = position.x.abs().max(position.y.abs()).max(fixed.radius);
+            if fixed.bound <= PRECISE * size {
+                return self.add(position, fixed.radius, KeypointKind::Junction, list);
+            }
+        }
+        let Start { centre, radius, doubt, .. } = Start::at(disk);
+        let keypoint = self.add(centre, radius, KeypointKind::Junction, list);
+        self.rough.push(Rough { keypoint, triple, doubt });
+        keypoint
+    }
+
+    /// Adds a transition that was passed on a path.
+    pub fn add_transition(&mut self, passed: &Passed) -> u32 {
+        let list = &passed.contacts[..usize::from(passed.n_contacts)];
+        let mut sorted = passed.contacts;
+        let sorted = &mut sorted[..list.len()];
+        let least = (0..list.len()).min_by_key(|&k| list[k]).unwrap_or(0);
+        sorted.rotate_left(least);
+        let [a, b, c, _] = passed.contacts;
+        let keypoint = self.add_disk(Some(&passed.disk), &passed.disk, [a, b, c], sorted);
+        self.keypoints[keypoint as usize].kind = KeypointKind::Transition;
+        keypoint
+    }
+
+    /// The axis: every position computed as precisely as promised.
+    pub fn finish(mut self, domain: &Domain) -> Result<MedialAxis, EngineError> {
+        for rough in &self.rough {
+            let list: Vec<Site> = self.governors_of(rough.keypoint);
+            let keypoint = &mut self.keypoints[rough.keypoint as usize];
+            let (centre, radius) = (keypoint.position, keypoint.radius);
+            (keypoint.position, keypoint.radius) =
+                position(domain, &list, &rough.triple, centre, radius, rough.doubt)
+                    .ok_or(EngineError::Internal { stage: "placing a keypoint", place: centre })?;
+        }
+        // Sites that govern something, numbered in boundary order.
+        let mut number = vec![u32::MAX; 2 * domain.edges().len()];
+        for &site in &self.governors {
+            number[site as usize] = 0;
+        }
+        let n_sites = number.iter().filter(|&&n| n == 0).count();
+        let mut sites: Vec<axis::Site> = Vec::with_capacity(n_sites);
+        for (site, slot) in (0_u32..).map(Site).zip(&mut number) {
+            if *slot == 0 {
+                *slot = sites.len() as u32;
+                sites.push(site_record(domain, site));
+            }
+        }
+        for site in &mut self.governors {
+            *site = number[*site as usize];
+        }
+        for path in &mut self.paths {
+            path.left = number[path.left as usize];
+            path.right = number[path.right as usize];
+        }
+        drop(number);
+        self.keypoints.shrink_to_fit();
+        self.governors.shrink_to_fit();
+        self.paths.shrink_to_fit();
+        MedialAxis::from_tables(
+            Engine::PathTracing,
+            Side::Interior,
+            Accuracy::Exact,
+            true,
+            sites,
+            self.keypoints,
+            self.governors,
+            self.paths,
+        )
+        .ok_or(EngineError::Internal { stage: "numbering sites", place: Point::default() })
+    }
+}
+
+fn site_record(domain: &Domain, site: Site) -> axis::Site {
+    let k = site.index();
+    let origin = domain.origin(k);
+    let a = domain.edge(k).start;
+    if site.is_edge() {
+        axis::Site {
+            kind: SiteKind::Edge,
+            polygon: origin.polygon,
+            ring: origin.ring,
+            index: origin.index,
+            part: origin.part,
+            a,
+            b: domain.end(k),
+        }
+    } else {
+        axis::Site {
+            kind: SiteKind::Vertex,
+            polygon: origin.polygon,
+            ring: origin.corner.ring,
+            index: origin.corner.index,
+            part: origin.corner.part,
+            a,
+            b: a,
+        }
+    }
+}

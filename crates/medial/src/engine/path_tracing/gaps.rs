@@ -1,0 +1,82 @@
+//! Open gaps of keypoints, by their governors: where loops of the axis close.
+
+use crate::domain::Site;
+
+const NONE: u32 = u32::MAX;
+
+/// Room for a path between two neighbouring contact runs of a keypoint.
+#[derive(Clone, Copy, Debug)]
+struct Open {
+    keypoint: u32,
+    right: Site,
+    left: Site,
+    /// The next open gap with the same right governor.
+    next: u32,
+}
+
+/// The gaps that no path has used yet.
+///
+/// A path that arrives is looked for under its left governor, which is the right one of the gap that
+/// it fills. An element has few open gaps at a time.
+#[derive(Debug)]
+pub(super) struct Gaps {
+    /// First site of the polygon.
+    base: u32,
+    /// First open gap of each site.
+    heads: Vec<u32>,
+    /// All gaps, those closed as well.
+    gaps: Vec<Open>,
+}
+
+impl Gaps {
+    pub fn new(base: u32, n_sites: u32) -> Self {
+        Self { base, heads: vec![NONE; n_sites as usize], gaps: Vec::new() }
+    }
+
+    /// Takes note of an open gap and gives its number.
+    pub fn open(&mut self, keypoint: u32, right: Site, left: Site) -> u32 {
+        let number = self.gaps.len() as u32;
+        let head = &mut self.heads[(right.0 - self.base) as usize];
+        self.gaps.push(Open { keypoint, right, left, next: *head });
+        *head = number;
+        number
+    }
+
+    /// Closes a gap by its number; false if it was closed already.
+    pub fn take(&mut self, gap: u32) -> bool {
+        let right = self.gaps[gap as usize].right;
+        self.unlink(right, |number, _| number == gap).is_some()
+    }
+
+    /// Closes the gap between two governors at a keypoint for which `same` holds, and gives the
+    /// keypoint.
+    pub fn close(
+        &mut self,
+        right: Site,
+        left: Site,
+        mut same: impl FnMut(u32) -> bool,
+    ) -> Option<u32> {
+        self.unlink(right, |_, gap| gap.left == left && same(gap.keypoint))
+    }
+
+    /// Takes the first open gap of a site for which `wanted` holds, and gives its keypoint.
+    fn unlink(&mut self, right: Site, mut wanted: impl FnMut(u32, &Open) -> bool) -> Option<u32> {
+        let slot = (right.0 - self.base) as usize;
+        let mut before = NONE;
+        let mut number = self.heads[slot];
+        while number != NONE {
+            let gap = self.gaps[number as usize];
+            if wanted(number, &gap) {
+                if before == NONE {
+                    self.heads[slot] = gap.next;
+                } else {
+                    self.gaps[before as usize].next = gap.next;
+                }
+                return Some(gap.keypoint);
+            }
+            before = number;
+            number = gap.next;
+        }
+        None
+    }
+}
