@@ -21,7 +21,7 @@ using Rings = std::vector<Ring>;
 
 // How long, in nanoseconds, and how often at most one call repeats its work; and edges that are
 // worked on between two looks at the clock.
-const int64_t enough = 300000000;
+const int64_t enough = 500000000;
 const size_t repetitions = 101;
 const size_t chunk = 10000;
 

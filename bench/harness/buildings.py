@@ -4,7 +4,7 @@ import json
 import statistics
 
 from . import BENCH
-from .run import Unfinished, run
+from .run import Unfinished, run, short
 
 LAYER = "tiles/mvt-fixtures-sanfrancisco.geojson"
 
@@ -49,8 +49,8 @@ def rows(medial, python, options, scratch):
             yield [name, "", str(failed[name]), "", "", ""]
             continue
         done = (taken[name][0][0].split() or [total])[-1]
-        ratios = [f"{a / b:.3g}" if ours else "" for a, b in zip(medians[name], ours or (1, 1))]
-        yield [name, f"{int(done):,}", *(f"{t:.3g}" for t in medians[name]), *ratios]
+        ratios = [short(a / b) if ours else "" for a, b in zip(medians[name], ours or (1, 1))]
+        yield [name, f"{int(done):,}", *(short(t) for t in medians[name]), *ratios]
 
 
 def extract(path, to):

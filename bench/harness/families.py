@@ -2,7 +2,7 @@
 
 import sys
 
-from .run import Result, Unfinished, by_turns, microseconds, ratio, run
+from .run import Result, Unfinished, by_turns, microseconds, ratio, run, short
 
 SHAPES = [
     "star", "koch", "maze", "rmaze", "comb", "stair", "holes", "holes3", "lattice", "ngon",
@@ -16,8 +16,9 @@ BASE = 10_000
 def rows(commands, rivals, options, scratch):
     """Yields the lines of the table as they are ready."""
     shown = [name for name in rivals if name not in ("boost", "delaunator")]
-    heads = ["shape", "edges", "validation", "engine", "medial", "bytes"]
-    heads += [name for name in ("boost", "delaunator") if name in rivals]
+    heads = ["shape", "edges", "validation", "engine", "medial", "bytes", "paths"]
+    heads += ["boost", "its paths"] if "boost" in rivals else []
+    heads += ["delaunator"] if "delaunator" in rivals else []
     heads += ["boost ÷ medial"] if "boost" in rivals else []
     heads += ["medial ÷ delaunator"] if "delaunator" in rivals else []
     heads += ["÷ at 1e4"] + shown
@@ -29,25 +30,25 @@ def rows(commands, rivals, options, scratch):
         for size in sorted(options.sizes):
             results = compare(commands, rivals, options, scratch, shape, size, slow)
             ours = results["medial"]
-            if not isinstance(ours, Result):
-                ours_cells = ["", f"{size:,}", "", "", str(ours), ""]
-            else:
+            cells = [shape, f"{size:,}", "", "", str(ours), "", ""]
+            far = ""
+            if isinstance(ours, Result):
                 each = ours.time / ours.edges
                 base = each if size == BASE else base
-                ours_cells = [
-                    "", f"{ours.edges:,}", f"{ours.first / ours.edges / 1e3:.3g}",
-                    f"{ours.second / ours.edges / 1e3:.3g}", microseconds(ours),
-                    # Small shapes fit into what the process has already.
-                    f"{ours.growth / ours.edges:.0f}" if size >= BASE else "",
-                ]
-            cells = ours_cells
-            cells[0] = shape
-            for name in ("boost", "delaunator"):
-                cells += [microseconds(results[name])] if name in rivals else []
+                far = f"{each / base:.2f}" if base and size > BASE else ""
+                stages = [short(time / ours.edges / 1e3) for time in (ours.first, ours.second)]
+                # Small shapes fit into what the process has already.
+                growth = f"{ours.growth / ours.edges:.0f}" if size >= BASE else ""
+                cells = [shape, f"{ours.edges:,}", *stages, microseconds(ours), growth]
+                cells.append(f"{ours.found:,}")
+            if "boost" in rivals:
+                boost = results["boost"]
+                found = f"{boost.found:,}" if isinstance(boost, Result) else ""
+                cells += [microseconds(boost), found]
+            cells += [microseconds(results["delaunator"])] if "delaunator" in rivals else []
             cells += [ratio(results["boost"], ours)] if "boost" in rivals else []
             cells += [ratio(ours, results["delaunator"])] if "delaunator" in rivals else []
-            far = isinstance(ours, Result) and base and size > BASE
-            cells.append(f"{ours.time / ours.edges / base:.2f}" if far else "")
+            cells.append(far)
             cells += [microseconds(results[name]) for name in shown]
             yield cells
 

@@ -21,7 +21,7 @@ SHAPES = """
 ## Shapes
 
 - *medial*: `Domain::from_polygons`, which validates, and `path_tracing`; *medial* is the sum. `bytes` is the growth of the peak of resident memory over both, an edge. `÷ at 1e4` is time an edge against that at 1e4 edges.
-- *boost*, *boostvoronoi*: Boost.Polygon and its Rust port: `construct_voronoi` of the edges, and the walk that drops what lies outside. They give both sides of the boundary, medial the inside.
+- *boost*, *boostvoronoi*: Boost.Polygon and its Rust port: `construct_voronoi` of the edges, and the walk that drops what lies outside. They give both sides of the boundary, medial the inside; in general position they find as many paths, but for those inside the holes, which count for Boost too.
 - *cgal*: the same with CGAL's segment Delaunay graph, exact predicates, points sorted in space. It gives both sides.
 - *delaunator*, *spade*, *spade-cdt*: no axis at all, but the Delaunay triangulation of the corners, the last one constrained to the edges: what a fast geometric algorithm on as many points costs.
 

@@ -1,6 +1,6 @@
 """Runs programs by turns, each within a limit, and takes medians."""
 
-import os
+import math
 import resource
 import signal
 import statistics
@@ -80,16 +80,21 @@ def by_turns(commands, rounds, limit, budget):
     return {name: failed.get(name) or Result(rows[name]) for name in commands}
 
 
+def short(number, digits=3):
+    """A number of about that many digits, without an exponent."""
+    size = math.floor(math.log10(number)) if number > 0 else 0
+    return f"{number:,.{max(digits - 1 - size, 0)}f}"
+
+
 def microseconds(result, edges=None):
     """The cell of a table: time an edge, or why there is none."""
     if not isinstance(result, Result):
         return str(result)
-    return f"{result.time / (edges or result.edges) / 1e3:.3g}"
+    return short(result.time / (edges or result.edges) / 1e3)
 
 
 def ratio(above, below):
     """The cell of a table: how many times as long `above` took."""
     if isinstance(above, Result) and isinstance(below, Result):
-        return f"{above.time / below.time:.2g}" if above.time < 10 * below.time else (
-            f"{above.time / below.time:.0f}")
+        return short(above.time / below.time, 2)
     return ""

@@ -6,7 +6,7 @@ use std::{fs, hint};
 use cpu_time::ThreadTime;
 
 /// How long one call repeats its work for.
-const ENOUGH: Duration = Duration::from_millis(300);
+const ENOUGH: Duration = Duration::from_millis(500);
 
 /// How often at most.
 const REPETITIONS: usize = 101;

@@ -7,25 +7,38 @@ use super::{Ring, SIZE};
 
 /// Corners at equal angles and any distance from the middle.
 pub fn star(random: &mut Random, edges: usize) -> Ring {
-    around(edges, |_| random.between(0.3, 1.0))
-}
-
-/// Long thin spikes around a disk: corners at equal angles, by turns near the disk and far out.
-pub fn slivers(random: &mut Random, edges: usize) -> Ring {
-    around(edges / 2 * 2, |k| match k % 2 {
-        0 => random.between(0.3, 0.35),
-        _ => random.between(0.8, 1.0),
-    })
-}
-
-/// Corners at equal angles; `radius` is a share of the size.
-fn around(edges: usize, mut radius: impl FnMut(usize) -> f64) -> Ring {
     let corner = |k: usize| {
         let (sin, cos) = (TAU * k as f64 / edges as f64).sin_cos();
-        let radius = SIZE * radius(k);
+        let radius = SIZE * random.between(0.3, 1.0);
         (radius * cos, radius * sin)
     };
     (0..edges).map(corner).collect()
+}
+
+/// Long thin spikes around a disk, by turns with straight sides and with four corners on each.
+pub fn slivers(random: &mut Random, edges: usize) -> Ring {
+    let spikes = edges / 12 * 2;
+    // Corners as multiples of the angle between two spikes, and shares of the size.
+    let mut corners = Vec::with_capacity(6 * spikes);
+    for spike in 0..spikes {
+        let middle = spike as f64;
+        let (root, tip) = (random.between(0.3, 0.35), random.between(0.8, 1.0));
+        let mut corner = |side: f64, step: usize| {
+            let share = (step as f64 + random.between(-0.3, 0.3)) / 5.0;
+            let width = 0.45 * (1.0 - share) * random.between(0.8, 1.0);
+            (middle + side * width, root + share * (tip - root))
+        };
+        let steps = if spike % 2 == 0 { 0 } else { 4 };
+        corners.push((middle - 0.5, root));
+        corners.extend((1..=steps).map(|step| corner(-1.0, step)));
+        corners.push((middle, tip));
+        corners.extend((1..=steps).rev().map(|step| corner(1.0, step)));
+    }
+    let place = |(turns, radius): (f64, f64)| {
+        let (sin, cos) = (turns * TAU / spikes as f64).sin_cos();
+        (SIZE * radius * cos, SIZE * radius * sin)
+    };
+    corners.into_iter().map(place).collect()
 }
 
 /// The corners of a regular polygon, squeezed to a height.
