@@ -1,5 +1,6 @@
 """Builds the programs that are compared, and installs what they need."""
 
+import importlib.util
 import os
 import pathlib
 import shutil
@@ -81,6 +82,7 @@ def python():
     folder = target(BENCH).parent / "venv"
     program = folder / "bin" / "python"
     if not program.exists():
+        need(importlib.util.find_spec("ensurepip"), "python3-venv")
         subprocess.run([sys.executable, "-m", "venv", folder], check=True)
     subprocess.run([program, "-m", "pip", "install", "--quiet", *PEERS], check=True)
     return program
