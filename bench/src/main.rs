@@ -1,70 +1,72 @@
-//! Draws polygons for the comparison with Boost.Polygon, and times medial on them.
+//! Draws shapes for the comparison, and times medial on them.
 //!
-//! `medial-bench draw SHAPE EDGES` prints rings of whole numbers, one `x y` a line, an empty line
-//! after each ring; `medial-bench time` reads them and prints the number of edges and paths, and
-//! the median time, in nanoseconds of the thread's processor time, of validation and of the
-//! engine.
+//! `medial-bench draw SHAPE EDGES` prints a shape, as `text` describes; `medial-bench time` reads
+//! shapes and prints one line, as `measure` describes, with the number of paths as what was found;
+//! `medial-bench axis SHAPE EDGES` computes the axis of a shape once, for counting instructions in
+//! `medial_bench_domain` and `medial_bench_engine`.
 
-mod shapes;
+use std::{env, hint};
 
-use std::io::Read as _;
-use std::time::Duration;
-use std::{env, io};
-
-use cpu_time::ThreadTime;
-use medial::domain::{Domain, Options};
-use medial::engine::path_tracing;
+use medial::axis::MedialAxis;
+use medial::domain::{Domain, DomainError, Options};
+use medial::engine::{EngineError, path_tracing};
 use medial::geom::Point;
+use medial_bench::measure::{Error, Work, report};
+use medial_bench::{shapes, text};
 
-/// Edges that one call goes through, if need be several times.
-const WORK: usize = 200_000;
-
-fn main() -> Result<(), Box<dyn std::error::Error>> {
+fn main() -> Result<(), Error> {
     let args: Vec<String> = env::args().skip(1).collect();
     match args.iter().map(String::as_str).collect::<Vec<_>>().as_slice() {
         ["draw", shape, edges] => draw(shape, edges.parse()?),
         ["time"] => time(),
-        _ => Err("medial-bench draw SHAPE EDGES, or medial-bench time".into()),
+        ["axis", shape, edges] => axis(shape, edges.parse()?),
+        _ => Err("medial-bench draw SHAPE EDGES, time, or axis SHAPE EDGES".into()),
     }
 }
 
-fn draw(shape: &str, edges: usize) -> Result<(), Box<dyn std::error::Error>> {
-    for ring in shapes::draw(shape, edges).ok_or("no such shape")? {
-        for (x, y) in ring {
-            println!("{x} {y}");
-        }
-        println!();
-    }
+fn draw(shape: &str, edges: usize) -> Result<(), Error> {
+    let mut drawn = String::new();
+    text::write(&mut drawn, &polygons(shape, edges)?);
+    print!("{drawn}");
     Ok(())
 }
 
-fn time() -> Result<(), Box<dyn std::error::Error>> {
-    let mut text = String::new();
-    io::stdin().read_to_string(&mut text)?;
-    let point = |line: &str| -> Option<Point> {
-        let (x, y) = line.split_once(' ')?;
-        Some(Point::new(x.parse().ok()?, y.parse().ok()?))
+fn polygons(shape: &str, edges: usize) -> Result<text::Polygons, Error> {
+    let ring = |ring: shapes::Ring| ring.into_iter().map(|(x, y)| Point::new(x, y)).collect();
+    let rings = shapes::draw(shape, edges).ok_or("no such shape")?;
+    Ok(vec![rings.into_iter().map(ring).collect()])
+}
+
+fn time() -> Result<(), Error> {
+    let work = Work {
+        prepare: |polygons| polygons,
+        first: |polygons: &text::Polygons| Ok(medial_bench_domain(polygons)?),
+        second: |domain: &mut Domain| Ok(medial_bench_engine(domain)?),
+        count: |_: &Domain, axis: &MedialAxis| axis.paths().len(),
     };
-    let ring = |part: &str| part.lines().filter_map(point).collect::<Vec<Point>>();
-    let polygons = [text.split("\n\n").map(ring).filter(|r| !r.is_empty()).collect::<Vec<_>>()];
-    let edges: usize = polygons[0].iter().map(Vec::len).sum();
-    let (mut validation, mut engine) = (Vec::new(), Vec::new());
-    let mut paths = 0;
-    for _ in 0..(WORK / edges.max(1)).clamp(1, 101) {
-        let start = ThreadTime::now();
-        let domain = Domain::from_polygons(&polygons, &Options::default())?;
-        validation.push(start.elapsed());
-        let start = ThreadTime::now();
-        let axis = path_tracing(&domain)?;
-        engine.push(start.elapsed());
-        paths = axis.paths().len();
-    }
-    let (validation, engine) = (median(&mut validation), median(&mut engine));
-    println!("{edges} {paths} {} {}", validation.as_nanos(), engine.as_nanos());
+    report(&text::read()?, text::edges, &work)
+}
+
+/// Does once what `time` repeats.
+fn axis(shape: &str, edges: usize) -> Result<(), Error> {
+    let polygons = polygons(shape, edges)?;
+    let domain = medial_bench_domain(&polygons)?;
+    let axis = medial_bench_engine(&domain)?;
+    println!("{} {}", text::edges(&polygons), axis.paths().len());
+    hint::black_box(axis);
     Ok(())
 }
 
-fn median(times: &mut [Duration]) -> Duration {
-    times.sort_unstable();
-    times[times.len() / 2]
+// Names that a profiler can be told.
+
+#[unsafe(no_mangle)]
+#[inline(never)]
+fn medial_bench_domain(polygons: &text::Polygons) -> Result<Domain, DomainError> {
+    Domain::from_polygons(polygons, &Options::default())
+}
+
+#[unsafe(no_mangle)]
+#[inline(never)]
+fn medial_bench_engine(domain: &Domain) -> Result<MedialAxis, EngineError> {
+    path_tracing(domain)
 }

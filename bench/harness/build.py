@@ -1,0 +1,88 @@
+"""Builds the programs that are compared, and installs what they need."""
+
+import importlib.util
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+
+from . import BENCH, ROOT
+
+# Pinned, so that a page can be drawn up again.
+PEERS = ["pygeoops==0.6.0", "pysfcgal==2.3.0"]
+
+# What each C++ program wants on the command line of the compiler.
+CPP = {
+    "boost": [],
+    # Intervals need the rounding mode left alone.
+    "cgal": ["-frounding-math", "-lmpfr", "-lgmp"],
+}
+
+
+def need(found, package):
+    """Installs a Debian package unless `found`, and ends if that cannot be done."""
+    if found:
+        return
+    words = ["apt-get", "install", "-y", package]
+    if os.geteuid() != 0:
+        words.insert(0, "sudo")
+    print(f"installing {package}", file=sys.stderr)
+    ran = shutil.which(words[0]) and subprocess.run(words, stdout=subprocess.DEVNULL, check=False)
+    if not ran or ran.returncode != 0:
+        sys.exit(f"error: {package} is missing (Debian's name); install it and try again")
+
+
+def target(folder):
+    """Where cargo puts the release programs of a workspace."""
+    return pathlib.Path(folder, os.environ.get("CARGO_TARGET_DIR", "target"), "release")
+
+
+def cargo(folder, *words):
+    subprocess.run(["cargo", "build", "--quiet", "--release", *words], cwd=folder, check=True)
+    return target(folder)
+
+
+def programs(rivals):
+    """The command of medial, of `layers` and of each rival, by name."""
+    folder = cargo(BENCH, "--workspace")
+    commands = {"medial": [folder / "medial-bench"], "layers": [folder / "layers"]}
+    for name in rivals:
+        if name in CPP:
+            commands[name] = [cpp(name, folder / name)]
+        else:
+            commands[name] = [folder / "rivals", name]
+    return commands
+
+
+def cpp(name, program):
+    compiler = os.environ.get("CXX", "g++")
+    need(shutil.which(compiler), "g++")
+    header = {"boost": "boost/polygon/voronoi.hpp", "cgal": "CGAL/Segment_Delaunay_graph_2.h"}[name]
+    package = {"boost": "libboost-dev", "cgal": "libcgal-dev"}[name]
+    words = [compiler, "-x", "c++", "-include", header, "-fsyntax-only", "-frounding-math", os.devnull]
+    look = lambda: subprocess.run(words, stderr=subprocess.DEVNULL, check=False).returncode == 0
+    sources = [BENCH / f"{name}.cpp", BENCH / "rivals.hpp"]
+    if program.exists() and all(s.stat().st_mtime < program.stat().st_mtime for s in sources):
+        return program
+    need(look(), package)
+    first, rest = sources[0], CPP[name]
+    words = [compiler, "-std=c++17", "-O3", "-DNDEBUG", "-o", program, first, *rest]
+    subprocess.run(words, check=True)
+    return program
+
+
+def medial():
+    """The command `medial`."""
+    return cargo(ROOT, "-p", "medial-cli") / "medial"
+
+
+def python():
+    """A Python with the peers that pip has."""
+    folder = target(BENCH).parent / "venv"
+    program = folder / "bin" / "python"
+    if not program.exists():
+        need(importlib.util.find_spec("ensurepip"), "python3-venv")
+        subprocess.run([sys.executable, "-m", "venv", folder], check=True)
+    subprocess.run([program, "-m", "pip", "install", "--quiet", *PEERS], check=True)
+    return program

@@ -1,0 +1,71 @@
+"""Compares the programs on drawn shapes."""
+
+import sys
+
+from .run import Result, Unfinished, by_turns, microseconds, ratio, run, short
+
+SHAPES = [
+    "star", "koch", "maze", "rmaze", "comb", "stair", "holes", "holes3", "lattice", "ngon",
+    "rngon", "ellipse", "slivers", "spiral",
+]
+
+# The size to which time an edge is compared.
+BASE = 10_000
+
+
+def rows(commands, rivals, options, scratch):
+    """Yields the lines of the table as they are ready."""
+    shown = [name for name in rivals if name not in ("boost", "delaunator")]
+    heads = ["shape", "edges", "validation", "engine", "medial", "bytes", "paths"]
+    heads += ["boost", "its paths"] if "boost" in rivals else []
+    heads += ["delaunator"] if "delaunator" in rivals else []
+    heads += ["boost ÷ medial"] if "boost" in rivals else []
+    heads += ["medial ÷ delaunator"] if "delaunator" in rivals else []
+    heads += ["÷ at 1e4"] + shown
+    yield heads
+    yield ["---"] + ["--:"] * (len(heads) - 1)
+    for shape in options.shapes:
+        base = None
+        slow = {}
+        for size in sorted(options.sizes):
+            results = compare(commands, rivals, options, scratch, shape, size, slow)
+            ours = results["medial"]
+            cells = [shape, f"{size:,}", "", "", str(ours), "", ""]
+            far = ""
+            if isinstance(ours, Result):
+                each = ours.time / ours.edges
+                base = each if size == BASE else base
+                far = f"{each / base:.2f}" if base and size > BASE else ""
+                stages = [short(time / ours.edges / 1e3) for time in (ours.first, ours.second)]
+                # Small shapes fit into what the process has already.
+                growth = f"{ours.growth / ours.edges:.0f}" if size >= BASE else ""
+                cells = [shape, f"{ours.edges:,}", *stages, microseconds(ours), growth]
+                cells.append(f"{ours.found:,}")
+            if "boost" in rivals:
+                boost = results["boost"]
+                found = f"{boost.found:,}" if isinstance(boost, Result) else ""
+                cells += [microseconds(boost), found]
+            cells += [microseconds(results["delaunator"])] if "delaunator" in rivals else []
+            cells += [ratio(results["boost"], ours)] if "boost" in rivals else []
+            cells += [ratio(ours, results["delaunator"])] if "delaunator" in rivals else []
+            cells.append(far)
+            cells += [microseconds(results[name]) for name in shown]
+            yield cells
+
+
+def compare(commands, rivals, options, scratch, shape, size, slow):
+    """The results on one shape by program; `slow` holds those that failed at a smaller size."""
+    path = scratch / "shape.txt"
+    with open(path, "w", encoding="utf-8") as file:
+        run([*commands["medial"], "draw", shape, str(size)], 600, stdout=file)
+    turns = {"medial": ([*commands["medial"], "time"], path)}
+    turns |= {name: (commands[name], path) for name in rivals}
+    turns = {name: turn for name, turn in turns.items() if name not in slow}
+    results = by_turns(turns, options.rounds, options.limit, options.budget)
+    for name, result in results.items():
+        if not isinstance(result, Result):
+            slow[name] = Unfinished("-")
+    edges = {result.edges for result in results.values() if isinstance(result, Result)}
+    if len(edges) > 1:
+        sys.exit(f"error: {shape} {size}: the programs read different polygons")
+    return {name: results.get(name) or slow[name] for name in ["medial", *rivals]}

@@ -1,0 +1,101 @@
+//! Times other libraries written in Rust, on the shapes that `medial-bench draw` prints.
+//!
+//! `rivals NAME` reads shapes and prints one line, as `medial_bench::measure` describes. The names:
+//!
+//! - `boostvoronoi`: the Voronoi diagram of the edges, then the walk that drops what lies outside;
+//!   coordinates are rounded to whole numbers. Found: Voronoi edges inside.
+//! - `delaunator`: the Delaunay triangulation of the corners. Found: triangles.
+//! - `spade`: the same. Found: triangles.
+//! - `spade-cdt`: the Delaunay triangulation constrained to the edges. Found: triangles.
+
+use std::env;
+
+use boostvoronoi::prelude::{Builder, Diagram, Line};
+use medial_bench::measure::{Error, Work, report};
+use medial_bench::text::{self, Polygons};
+use spade::{ConstrainedDelaunayTriangulation, DelaunayTriangulation, Point2, Triangulation as _};
+
+/// The colour of Voronoi edges outside.
+const OUTSIDE: u32 = 1;
+
+fn main() -> Result<(), Error> {
+    let features = text::read()?;
+    match env::args().nth(1).as_deref() {
+        Some("boostvoronoi") => boostvoronoi(&features),
+        Some("delaunator") => delaunator(&features),
+        Some("spade") => spade(&features),
+        Some("spade-cdt") => spade_cdt(&features),
+        _ => Err("rivals boostvoronoi, delaunator, spade or spade-cdt".into()),
+    }
+}
+
+fn boostvoronoi(features: &[Polygons]) -> Result<(), Error> {
+    let work = Work {
+        prepare: |polygons: &Polygons| {
+            let mut lines = Vec::new();
+            for ring in polygons.iter().flatten() {
+                for (a, b) in ring.iter().zip(ring.iter().cycle().skip(1)) {
+                    let [ax, ay, bx, by] = [a.x, a.y, b.x, b.y].map(|v| v.round() as i32);
+                    lines.push(Line::from([ax, ay, bx, by]));
+                }
+            }
+            lines
+        },
+        first: |lines: Vec<Line<i32>>| Ok(Builder::default().with_segments(lines)?.build()?),
+        second: |diagram: &mut Diagram| {
+            diagram.color_exterior_edges(OUTSIDE);
+            let inside =
+                |e: &&boostvoronoi::prelude::Edge| e.is_primary() && e.get_color() & OUTSIDE == 0;
+            Ok(diagram.edges().iter().filter(inside).count() / 2)
+        },
+        count: |_: &Diagram, found: &usize| *found,
+    };
+    report(features, text::edges, &work)
+}
+
+fn delaunator(features: &[Polygons]) -> Result<(), Error> {
+    let work = Work {
+        prepare: |polygons: &Polygons| {
+            let points = polygons.iter().flatten().flatten();
+            points.map(|p| delaunator::Point { x: p.x, y: p.y }).collect()
+        },
+        first: |points: Vec<delaunator::Point>| Ok(delaunator::triangulate(&points)),
+        second: |_: &mut delaunator::Triangulation| Ok(()),
+        count: |triangulation: &delaunator::Triangulation, _: &()| triangulation.len(),
+    };
+    report(features, text::edges, &work)
+}
+
+fn spade(features: &[Polygons]) -> Result<(), Error> {
+    let work = Work {
+        prepare: corners,
+        first: |points| Ok(DelaunayTriangulation::bulk_load(points)?),
+        second: |_: &mut DelaunayTriangulation<Point2<f64>>| Ok(()),
+        count: |t: &DelaunayTriangulation<Point2<f64>>, _: &()| t.num_inner_faces(),
+    };
+    report(features, text::edges, &work)
+}
+
+fn spade_cdt(features: &[Polygons]) -> Result<(), Error> {
+    let work = Work {
+        prepare: |polygons: &Polygons| {
+            let mut edges = Vec::new();
+            for ring in polygons.iter().flatten() {
+                let first = edges.len();
+                edges.extend((first..first + ring.len() - 1).map(|k| [k, k + 1]));
+                edges.push([first + ring.len() - 1, first]);
+            }
+            (corners(polygons), edges)
+        },
+        first: |(points, edges)| {
+            Ok(ConstrainedDelaunayTriangulation::bulk_load_cdt(points, edges)?)
+        },
+        second: |_: &mut ConstrainedDelaunayTriangulation<Point2<f64>>| Ok(()),
+        count: |t: &ConstrainedDelaunayTriangulation<Point2<f64>>, _: &()| t.num_inner_faces(),
+    };
+    report(features, text::edges, &work)
+}
+
+fn corners(polygons: &Polygons) -> Vec<Point2<f64>> {
+    polygons.iter().flatten().flatten().map(|p| Point2::new(p.x, p.y)).collect()
+}

@@ -1,0 +1,5 @@
+//! What the programs of the comparison share: shapes, their text, and how time is taken.
+
+pub mod measure;
+pub mod shapes;
+pub mod text;
