@@ -1,0 +1,117 @@
+//! A proof that the rings of a feature are simple and apart from one another, as most are.
+//!
+//! # Contract
+//! [`apart`] says which ring lies right below each ring, if no two edges share a point but the
+//! common corner of two consecutive ones; it may decline to answer, and always does if edges
+//! touch. Then the sweep has to tell. Linear on input whose edges are near few others; the work is
+//! counted, and at most so many times the number of edges.
+//!
+//! # Method
+//! A tree of boxes over runs of edges is joined with itself: only edges with meeting boxes are
+//! compared, exactly. A run that is monotone along an axis cannot meet itself. Where axis-parallel
+//! boxes meet too many others, boxes in the direction of the runs are tried: they separate long
+//! edges side by side, as in a star of needles. Nesting then follows from the edge right below the
+//! first vertex of each ring in lexicographic order, found in the same tree.
+//!
+//! # Departures
+//! The two sides of an edge differ, and those of all edges of a ring differ alike, since nothing
+//! touches: one comparison a ring says whether the interior is on the left everywhere, where the
+//! sweep makes one at each edge that starts.
+
+mod below;
+mod join;
+mod strip;
+#[cfg(test)]
+mod tests;
+mod tree;
+
+use join::{Doubt, join};
+use tree::Tree;
+
+use super::rings::Rings;
+use super::status::NONE;
+use crate::geom::Rect;
+
+/// Which ring lies right below the lowest of the leftmost vertices of each ring.
+pub(super) struct Nesting {
+    below: Vec<Below>,
+}
+
+/// What lies right below a ring.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Below {
+    Nothing,
+    /// A ring, seen from inside.
+    Inside(u32),
+    /// A ring, seen from outside.
+    Outside(u32),
+}
+
+/// Shows that the rings are simple and apart, and how they are nested; `None` if that is not so,
+/// or takes too long.
+pub(super) fn apart(rings: &Rings) -> Option<Nesting> {
+    let tree = Tree::new(rings);
+    let mut proof = Err(Doubt::Costly);
+    if !spreads(&tree) {
+        proof = join(&tree, &[]);
+    }
+    if proof == Err(Doubt::Costly) {
+        proof = join(&tree, &strip::strips(&tree));
+    }
+    proof.ok()?;
+    let below = if let [_] = rings.rings[..] { vec![Below::Nothing] } else { below::all(&tree)? };
+    Some(Nesting { below })
+}
+
+/// Whether the leaves' boxes overlap so much that a join by boxes is hopeless.
+fn spreads(tree: &Tree) -> bool {
+    let area = |b: &Rect| (b.max.x - b.min.x) * (b.max.y - b.min.y);
+    let leaves = tree.boxes.iter().take(tree.leaves.len()).map(area).sum::<f64>();
+    leaves > OVERLAP * tree.boxes.last().map_or(0.0, area)
+}
+
+/// Number of boxes over each place, on average, up to which they are of use.
+const OVERLAP: f64 = 4.0;
+
+impl Nesting {
+    /// The smallest ring around each ring, or `NONE`.
+    pub(super) fn parents(&self) -> Vec<u32> {
+        const OPEN: u32 = NONE - 1;
+        let mut parents = vec![OPEN; self.below.len()];
+        let mut waiting = Vec::new();
+        for start in 0..self.below.len() {
+            let mut ring = start;
+            // What lies below starts farther left, so this ends.
+            let parent = loop {
+                if parents[ring] != OPEN {
+                    break parents[ring];
+                }
+                waiting.push(ring);
+                match self.below[ring] {
+                    Below::Nothing => break NONE,
+                    Below::Inside(other) => break other,
+                    Below::Outside(other) => ring = other as usize,
+                }
+            };
+            waiting.drain(..).for_each(|ring| parents[ring] = parent);
+        }
+        parents
+    }
+
+    /// Whether each ring has on its outer side what its direction says.
+    pub(super) fn sides_agree(&self, rings: &Rings) -> bool {
+        // The polygon that is left there plus one, or 0.
+        let left = |ring: u32, inside: bool| {
+            let ring = &rings.rings[ring as usize];
+            if ring.hole == inside { 0 } else { ring.polygon + 1 }
+        };
+        self.below.iter().zip(0..).all(|(below, ring)| {
+            let found = match *below {
+                Below::Nothing => 0,
+                Below::Inside(other) => left(other, true),
+                Below::Outside(other) => left(other, false),
+            };
+            found == left(ring, false)
+        })
+    }
+}

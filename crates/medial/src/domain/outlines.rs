@@ -1,0 +1,103 @@
+//! Boundary walks before they are a domain.
+
+use std::sync::OnceLock;
+
+use super::origins::{Origins, Source};
+use super::report::Report;
+use super::rings::Rings;
+use super::status::NONE;
+use super::unit::unit_vector;
+use super::{Corner, Domain, Edge, Walk};
+use crate::geom::Point;
+
+/// Closed walks, which are valid: simple up to touching, directed, without spikes.
+pub(super) struct Outlines {
+    /// Where their edges start.
+    pub(super) points: Vec<Point>,
+    /// How they turn there.
+    pub(super) corners: Vec<Corner>,
+    pub(super) list: Vec<Outline>,
+    pub(super) given: Vec<u32>,
+    pub(super) records: Vec<super::Origin>,
+}
+
+/// One walk, a range of points.
+pub(super) struct Outline {
+    pub(super) first: u32,
+    pub(super) len: u32,
+    /// Where in its range it starts.
+    pub(super) start: u32,
+    pub(super) polygon: u32,
+    pub(super) hole: bool,
+    pub(super) source: Source,
+}
+
+impl Outlines {
+    /// The rings, which are apart from one another.
+    pub(super) fn of_rings(rings: Rings) -> Self {
+        let mut given = Vec::new();
+        let list = rings.rings.iter().map(|ring| {
+            let source = ring_source(&rings, ring, &mut given);
+            // Backwards, the edge with the smallest index is the last but one.
+            let start = if ring.reversed { ring.len - 2 } else { 0 };
+            let (first, len, polygon, hole) = (ring.first, ring.len, ring.polygon, ring.hole);
+            Outline { first, len, start, polygon, hole, source }
+        });
+        let list = list.collect();
+        Self { points: rings.points, corners: rings.corners, list, given, records: Vec::new() }
+    }
+
+    /// Where a walk starts.
+    pub(super) fn corner(&self, walk: usize) -> Point {
+        let outline = &self.list[walk];
+        self.points[(outline.first + outline.start) as usize]
+    }
+
+    /// The records, walks in the given order.
+    pub(super) fn into_domain(self, order: &[u32], report: Report) -> Domain {
+        let mut edges: Vec<Edge> = Vec::with_capacity(self.points.len());
+        let mut walks = Vec::with_capacity(order.len());
+        let mut sources = Vec::with_capacity(order.len());
+        for (number, &outline) in (0..).zip(order) {
+            let Outline { first, len, start, polygon, hole, source } = self.list[outline as usize];
+            let range = first as usize..(first + len) as usize;
+            let (points, corners) = (&self.points[range.clone()], &self.corners[range]);
+            let begin = edges.len() as u32;
+            let mut at = start as usize;
+            for k in 0..len {
+                let after = if at + 1 == points.len() { 0 } else { at + 1 };
+                let (direction, length) = unit_vector(points[at], points[after]);
+                edges.push(Edge {
+                    start: points[at],
+                    direction,
+                    length,
+                    next: if k + 1 < len { begin + k + 1 } else { begin },
+                    prev: begin + if k > 0 { k - 1 } else { len - 1 },
+                    walk: number,
+                    corner: corners[at],
+                });
+                at = after;
+            }
+            walks.push(Walk { first: begin, len, hole, polygon, component: 0 });
+            sources.push(source);
+        }
+        let origins = Origins { sources, given: self.given, records: self.records };
+        Domain { edges, walks, origins, report, lines: OnceLock::new() }
+    }
+}
+
+/// Names for a walk around a whole ring.
+pub(super) fn ring_source(
+    rings: &Rings,
+    ring: &super::rings::Ring,
+    given: &mut Vec<u32>,
+) -> Source {
+    let listed = match rings.cleaned.get(ring.cleaned as usize) {
+        Some(cleaned) => {
+            given.extend_from_slice(&cleaned.given);
+            (given.len() - cleaned.given.len()) as u32
+        }
+        None => NONE,
+    };
+    Source::Ring { ring: ring.index, given: listed, reversed: ring.reversed }
+}
