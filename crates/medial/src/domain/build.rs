@@ -45,7 +45,7 @@ impl Domain {
     ) -> Result<Self, DomainError> {
         let mut report = Report::default();
         let mut rings = Rings::clean(polygons, options, &mut report)?;
-        let nesting = apart(&rings);
+        let nesting = apart(&rings, rings.order());
         if options.regroup {
             let parents = match &nesting {
                 Some(nesting) => nesting.parents(),

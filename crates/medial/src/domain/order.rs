@@ -1,7 +1,11 @@
 //! The order of the holes: near ones follow one another.
 
 use super::outlines::Outlines;
-use crate::geom::{Rect, hilbert};
+use super::rings::Rings;
+use crate::geom::{Point, Rect, hilbert};
+
+/// Rings that are not worth sorting for themselves.
+const FEW_RINGS: usize = 8;
 
 impl Outlines {
     /// The numbers of the walks, with the holes of each polygon along a Hilbert curve in the places
@@ -9,25 +13,54 @@ impl Outlines {
     ///
     /// Indices over edges in boundary order are then good whatever the order of the input.
     pub(super) fn order(&self) -> Vec<u32> {
-        let mut order: Vec<u32> = (0..self.list.len() as u32).collect();
+        let corner = |walk: u32| {
+            let outline = &self.list[walk as usize];
+            self.points[(outline.first + outline.start) as usize]
+        };
         let polygon = |walk: u32| self.list[walk as usize].polygon;
-        let mut places: Vec<u32> =
-            order.iter().copied().filter(|&w| self.list[w as usize].hole).collect();
-        if places.len() < 2 {
-            return order;
-        }
-        let corner = |walk: u32| self.corner(walk as usize);
-        let bounds = places.iter().fold(Rect::EMPTY, |all, &w| all.with(corner(w)));
-        // Equal keys keep their order.
-        let key = |&w: &u32| (polygon(w), hilbert(&bounds, corner(w)), w);
-        let mut sorted: Vec<_> = places.iter().map(key).collect();
-        sorted.sort_unstable();
-        places.sort_by_key(|&w| polygon(w));
-        for (place, (.., walk)) in places.into_iter().zip(sorted) {
-            order[place as usize] = walk;
-        }
-        order
+        let hole = |walk: u32| self.list[walk as usize].hole;
+        holes_along_a_curve(self.list.len(), polygon, hole, corner)
     }
+}
+
+impl Rings<'_> {
+    /// The rings in an order in which near ones follow one another: that of the walks they make, if
+    /// they touch nowhere and there is one polygon; else along a curve all of them.
+    pub(super) fn order(&self) -> Vec<u32> {
+        let ring = |ring: u32| &self.rings[ring as usize];
+        if self.lone {
+            let corner = |number| self.point(ring(number).first + ring(number).start());
+            return holes_along_a_curve(self.rings.len(), |_| 0, |r| ring(r).index > 0, corner);
+        }
+        let polygon = |number: u32| u32::from(self.rings.len() <= FEW_RINGS) * number;
+        let corner = |number| self.point(ring(number).first);
+        holes_along_a_curve(self.rings.len(), polygon, |_| true, corner)
+    }
+}
+
+/// The numbers 0 to `n - 1`, with the holes of each polygon along a Hilbert curve in the places
+/// where its holes are.
+fn holes_along_a_curve(
+    n: usize,
+    polygon: impl Fn(u32) -> u32,
+    hole: impl Fn(u32) -> bool,
+    corner: impl Fn(u32) -> Point,
+) -> Vec<u32> {
+    let mut order: Vec<u32> = (0..n as u32).collect();
+    let mut places: Vec<u32> = order.iter().copied().filter(|&w| hole(w)).collect();
+    if places.len() < 2 {
+        return order;
+    }
+    let bounds = places.iter().fold(Rect::EMPTY, |all, &w| all.with(corner(w)));
+    // Equal keys keep their order.
+    let key = |&w: &u32| (polygon(w), hilbert(&bounds, corner(w)), w);
+    let mut sorted: Vec<_> = places.iter().map(key).collect();
+    sorted.sort_unstable();
+    places.sort_by_key(|&w| polygon(w));
+    for (place, (.., walk)) in places.into_iter().zip(sorted) {
+        order[place as usize] = walk;
+    }
+    order
 }
 
 #[cfg(test)]

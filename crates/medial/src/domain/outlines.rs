@@ -38,19 +38,12 @@ impl Outlines {
         let mut given = Vec::new();
         let list = rings.rings.iter().map(|ring| {
             let source = ring_source(&rings, ring, &mut given);
-            // Backwards, the edge with the smallest index is the last but one.
-            let start = if ring.reversed { ring.len - 2 } else { 0 };
             let (first, len, polygon, hole) = (ring.first, ring.len, ring.polygon, ring.hole);
+            let start = ring.start();
             Outline { first, len, start, polygon, hole, source }
         });
         let list = list.collect();
         Self { points: rings.points, corners: rings.corners, list, given, records: Vec::new() }
-    }
-
-    /// Where a walk starts.
-    pub(super) fn corner(&self, walk: usize) -> Point {
-        let outline = &self.list[walk];
-        self.points[(outline.first + outline.start) as usize]
     }
 
     /// The records, walks in the given order.

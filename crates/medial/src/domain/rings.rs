@@ -41,6 +41,14 @@ pub(super) struct Ring {
     pub(super) reversed: bool,
 }
 
+impl Ring {
+    /// Where, from its first vertex, the edge with the smallest index starts.
+    pub(super) fn start(&self) -> u32 {
+        // Backwards, that is the last edge but one.
+        if self.reversed { self.len - 2 } else { 0 }
+    }
+}
+
 /// A ring that lost vertices.
 pub(super) struct Cleaned {
     /// Positions in the ring as given of the vertices that are left, in order.

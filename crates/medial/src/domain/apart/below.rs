@@ -3,7 +3,8 @@
 use std::cmp::Ordering;
 
 use super::Below;
-use super::tree::{FAN, Tree};
+use super::join::bits;
+use super::tree::{Bounds, FAN, Tree};
 use crate::geom::{Point, orient2d};
 
 /// Nodes looked at for each ring, and to begin with, until it is too much.
@@ -23,7 +24,9 @@ pub(super) fn all(tree: &Tree) -> Option<Vec<Below>> {
             allowed += WORK;
             let points = rings.ring_points(ring).iter().copied();
             let lowest = points.reduce(|a, b| if b.lexicographic(a).is_lt() { b } else { a })?;
-            let mut search = Search { tree, from: lowest, best: None, work };
+            let [x, y] = [tree.map.x(lowest.x), tree.map.y(lowest.y)];
+            let ray = Bounds { min: [x, f32::NEG_INFINITY], max: [x, y] };
+            let mut search = Search { tree, from: lowest, ray, best: None, work };
             search.run();
             work = search.work;
             (work <= allowed).then(|| search.found())
@@ -36,7 +39,8 @@ pub(super) fn all(tree: &Tree) -> Option<Vec<Below>> {
 struct Ground {
     left: Point,
     right: Point,
-    floor: f64,
+    /// In the coordinates of the tree's map.
+    floor: f32,
     ring: u32,
     forward: bool,
 }
@@ -44,6 +48,8 @@ struct Ground {
 struct Search<'a> {
     tree: &'a Tree<'a>,
     from: Point,
+    /// All that is below the point.
+    ray: Bounds,
     best: Option<Ground>,
     work: u64,
 }
@@ -51,48 +57,57 @@ struct Search<'a> {
 impl Search<'_> {
     /// Depth first, the highest nodes first.
     fn run(&mut self) {
-        let mut stack = Vec::with_capacity(8 * FAN);
-        stack.push((f64::INFINITY, self.tree.height() - 1, 0));
-        while let Some((top, level, node)) = stack.pop() {
+        // At most seven nodes wait on each of eleven levels.
+        let mut stack = [(f32::INFINITY, 0_u8, 0_u32); 96];
+        stack[0].1 = self.tree.height() as u8 - 1;
+        let mut len = 1;
+        while len > 0 {
+            len -= 1;
+            let (top, level, place) = stack[len];
             if self.best.is_some_and(|b| top < b.floor) {
                 continue;
             }
             self.work += 1;
+            let node = self.tree.node(usize::from(level), place as usize);
+            let reached = node.meets(&self.ray, &self.tree.powers);
             if level == 0 {
-                self.leaf(node);
+                for k in bits(reached) {
+                    self.edge(place as usize, k);
+                }
                 continue;
             }
-            let waiting = stack.len();
-            for child in self.tree.children(level, node) {
-                let bounds = self.tree.bounds(level - 1, child);
-                let covers = bounds.min.x <= self.from.x && self.from.x <= bounds.max.x;
-                if covers && bounds.min.y <= self.from.y {
-                    stack.push((bounds.max.y.min(self.from.y), level - 1, child));
+            let waiting = len;
+            for k in bits(reached) {
+                let top = node.child(k).max[1].min(self.ray.max[1]);
+                // Insertion sort, the highest last.
+                let mut at = len;
+                while at > waiting && stack[at - 1].0 > top {
+                    stack[at] = stack[at - 1];
+                    at -= 1;
                 }
+                stack[at] = (top, level - 1, place * FAN as u32 + k as u32);
+                len += 1;
             }
-            stack[waiting..].sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
         }
     }
 
-    fn leaf(&mut self, leaf: usize) {
-        let chain = self.tree.chain(leaf);
-        for k in 0..chain.len {
-            let (start, end) = chain.edge(k);
-            let forward = start.x < end.x;
-            let (left, right) = if forward { (start, end) } else { (end, start) };
-            // An edge counts at its left end, but not at its right one: there it is over. Upright
-            // ones never count.
-            let covers = left.x <= self.from.x && self.from.x < right.x;
-            if !covers || orient2d(left, right, self.from) <= 0.0 {
-                continue;
-            }
-            let share = (self.from.x - left.x) / (right.x - left.x);
-            let height = left.y + (right.y - left.y) * share;
-            let floor = height - SLACK * (left.y.abs() + right.y.abs());
-            let found = Ground { left, right, floor, ring: chain.ring, forward };
-            if self.best.is_none_or(|best| lies_above(&found, &best)) {
-                self.best = Some(found);
-            }
+    fn edge(&mut self, leaf: usize, k: usize) {
+        let located = self.tree.locate(leaf, k);
+        let (start, end) = self.tree.ends(located);
+        let forward = start.x < end.x;
+        let (left, right) = if forward { (start, end) } else { (end, start) };
+        // An edge counts at its left end, but not at its right one: there it is over. Upright ones
+        // never count.
+        let covers = left.x <= self.from.x && self.from.x < right.x;
+        if !covers || orient2d(left, right, self.from) <= 0.0 {
+            return;
+        }
+        let share = (self.from.x - left.x) / (right.x - left.x);
+        let height = left.y + (right.y - left.y) * share;
+        let floor = self.tree.map.y(height - SLACK * (left.y.abs() + right.y.abs()));
+        let found = Ground { left, right, floor, ring: located.ring, forward };
+        if self.best.is_none_or(|best| lies_above(&found, &best)) {
+            self.best = Some(found);
         }
     }
 

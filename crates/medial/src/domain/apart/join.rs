@@ -1,8 +1,8 @@
 //! The tree of boxes against itself.
 
-use super::strip::Strip;
-use super::tree::{Chain, FAN, Tree};
-use crate::geom::{Point, Rect, orient2d};
+use super::strip::{Lines, Strip};
+use super::tree::{Bounds, FAN, Tree};
+use crate::geom::{Point, orient2d};
 
 /// Why a proof is not had.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -11,9 +11,9 @@ pub(super) enum Doubt {
     Costly,
 }
 
-/// Work allowed for each edge looked at so far, and to begin with, in comparisons of nodes or
-/// edges; good input takes 2 to 5.
-const WORK: u64 = 24;
+/// Work allowed for each leaf looked at so far, and to begin with, in comparisons of nodes or
+/// edges.
+const WORK: u64 = 160;
 const FIRST_WORK: u64 = 4096;
 
 /// Shows that no two edges share a point, but consecutive ones their corner. With `strips` around
@@ -33,120 +33,125 @@ struct Join<'a> {
 
 impl Join<'_> {
     /// All pairs of edges of one node.
-    fn within(&mut self, level: usize, node: usize) -> Result<(), Doubt> {
+    fn within(&mut self, level: usize, place: usize) -> Result<(), Doubt> {
+        let (node, powers) = (self.tree.node(level, place), &self.tree.powers);
         if level == 0 {
             self.done += 1;
-            let chain = self.tree.chain(node);
-            let ring = &self.tree.rings.rings[chain.ring as usize];
-            return alone(&chain, chain.len == ring.len as usize);
-        }
-        let children = self.tree.children(level, node);
-        for child in children.clone() {
-            self.within(level - 1, child)?;
-        }
-        for one in children.clone() {
-            for other in one + 1..children.end {
-                if self.meet(level - 1, one, other) {
-                    self.between(level - 1, one, other)?;
+            if !self.strips.is_empty()
+                && let Some(chain) = self.tree.chain(place)
+            {
+                return self.alone(place, &Lines::new(&chain));
+            }
+            let followers = self.tree.followers(place);
+            for j in 0..FAN - 1 {
+                let later = 0xfe << j & !(followers & 2 << j);
+                for k in bits(node.meets(&node.child(j), powers) & later) {
+                    self.pair((place, j), (place, k))?;
                 }
             }
-        }
-        Ok(())
-    }
-
-    /// All pairs of edges of two nodes that meet.
-    fn between(&mut self, level: usize, one: usize, other: usize) -> Result<(), Doubt> {
-        self.work += 1;
-        if self.work > WORK * FAN as u64 * self.done + FIRST_WORK {
-            return Err(Doubt::Costly);
-        }
-        if level == 0 {
-            return self.chains(one, other);
-        }
-        let (near, far) = (*self.tree.bounds(level, other), *self.tree.bounds(level, one));
-        let mut list = [0; FAN];
-        let mut len = 0;
-        for child in self.tree.children(level, other) {
-            if self.tree.bounds(level - 1, child).meets(&far) {
-                list[len] = child;
-                len += 1;
-            }
-        }
-        for a in self.tree.children(level, one) {
-            if !self.tree.bounds(level - 1, a).meets(&near) {
-                continue;
-            }
-            for &b in &list[..len] {
-                if self.meet(level - 1, a, b) {
-                    self.between(level - 1, a, b)?;
-                }
-            }
-        }
-        Ok(())
-    }
-
-    #[inline]
-    fn meet(&self, level: usize, one: usize, other: usize) -> bool {
-        let (a, b) = (self.tree.place(level, one), self.tree.place(level, other));
-        self.tree.boxes[a].meets(&self.tree.boxes[b])
-            && (self.strips.is_empty() || !self.strips[a].misses(&self.strips[b]))
-    }
-
-    /// All pairs of edges of two leaves.
-    fn chains(&mut self, one: usize, other: usize) -> Result<(), Doubt> {
-        let (a, b) = (self.tree.chain(one), self.tree.chain(other));
-        let mut near = within_reach(&a, |p| code(self.tree.bounds(0, other), p));
-        let mut far = within_reach(&b, |p| code(self.tree.bounds(0, one), p));
-        if near == 0 || far == 0 {
             return Ok(());
         }
-        if let (Some(strip), Some(own)) = (self.strips.get(other), self.strips.get(one)) {
-            near &= within_reach(&a, |p| strip.code(p));
-            far &= within_reach(&b, |p| own.code(p));
+        let full = node.meets(&self.tree.bounds(), powers);
+        for j in bits(full) {
+            self.within(level - 1, place * FAN + j)?;
         }
-        self.work += u64::from(near.count_ones() * far.count_ones());
-        let after = self.precedes(&a, &b);
-        let before = self.precedes(&b, &a);
+        for j in bits(full) {
+            for k in bits(node.meets(&node.child(j), powers) & (0xfe << j)) {
+                let (one, other) = (place * FAN + j, place * FAN + k);
+                self.between(level - 1, (one, &node.child(j)), (other, &node.child(k)))?;
+            }
+        }
+        Ok(())
+    }
+
+    /// All pairs of edges of two nodes whose boxes meet.
+    fn between(
+        &mut self,
+        level: usize,
+        (one, own): (usize, &Bounds),
+        (other, bounds): (usize, &Bounds),
+    ) -> Result<(), Doubt> {
+        self.work += 1;
+        if self.work > WORK * self.done + FIRST_WORK {
+            return Err(Doubt::Costly);
+        }
+        if !self.strips.is_empty() && self.separated(level, one, other) {
+            return Ok(());
+        }
+        let (a, b) = (self.tree.node(level, one), self.tree.node(level, other));
+        let powers = &self.tree.powers;
+        let near = a.meets(bounds, powers);
+        if near == 0 {
+            return Ok(());
+        }
+        let far = b.meets(own, powers);
+        if level == 0 && !self.strips.is_empty() {
+            return self.leaves(one, other, near, far);
+        }
         for j in bits(near) {
-            for k in bits(far) {
-                let consecutive =
-                    after && j + 1 == a.len && k == 0 || before && k + 1 == b.len && j == 0;
-                if !consecutive && touch(a.edge(j), b.edge(k)) {
-                    return Err(Doubt::Touch);
+            let child = a.child(j);
+            let mut others = b.meets(&child, powers) & far;
+            if level == 0 && other == one + 1 && j == FAN - 1 {
+                others &= !(self.tree.followers(other) & 1);
+            }
+            for k in bits(others) {
+                if level == 0 {
+                    self.pair((one, j), (other, k))?;
+                } else {
+                    let (one, other) = (one * FAN + j, other * FAN + k);
+                    self.between(level - 1, (one, &child), (other, &b.child(k)))?;
                 }
             }
         }
         Ok(())
     }
 
-    /// Whether the second run starts where the first one ends, on the same ring.
-    fn precedes(&self, a: &Chain, b: &Chain) -> bool {
-        let ring = &self.tree.rings.rings[a.ring as usize];
-        let after = a.first + a.len as u32;
-        let next = if after == ring.first + ring.len { ring.first } else { after };
-        a.ring == b.ring && next == b.first
+    fn separated(&self, level: usize, one: usize, other: usize) -> bool {
+        let strip = |node| &self.strips[self.tree.place(level, node)];
+        strip(one).misses(strip(other))
     }
-}
 
-/// All pairs of edges of one run, which may be a whole ring.
-fn alone(chain: &Chain, closed: bool) -> Result<(), Doubt> {
-    let points = chain.points();
-    let steps = points.windows(2).map(|w| w[1] - w[0]);
-    let range = steps.fold(Rect::EMPTY, Rect::with);
-    // Monotone: the edges follow one another along an axis. At most every other one is upright,
-    // or level, so those that are not consecutive have no place in common.
-    if 0.0 <= range.min.x || range.max.x <= 0.0 || 0.0 <= range.min.y || range.max.y <= 0.0 {
-        return Ok(());
+    /// Two edges, each given by its leaf and its number there.
+    fn pair(&mut self, one: (usize, usize), other: (usize, usize)) -> Result<(), Doubt> {
+        let (a, b) = (self.tree.locate(one.0, one.1), self.tree.locate(other.0, other.1));
+        if a.next == b.edge || b.next == a.edge {
+            return Ok(());
+        }
+        self.work += 1;
+        if touch(self.tree.ends(a), self.tree.ends(b)) { Err(Doubt::Touch) } else { Ok(()) }
     }
-    for j in 0..chain.len.saturating_sub(2) {
-        let last = if closed && j == 0 { chain.len - 1 } else { chain.len };
-        for k in j + 2..last {
-            if touch(chain.edge(j), chain.edge(k)) {
-                return Err(Doubt::Touch);
+
+    /// The marked edges of two leaves, with strips.
+    fn leaves(&mut self, one: usize, other: usize, near: u32, far: u32) -> Result<(), Doubt> {
+        let (Some(a), Some(b)) = (self.tree.chain(one), self.tree.chain(other)) else {
+            for (j, k) in bits(near).flat_map(|j| bits(far).map(move |k| (j, k))) {
+                self.pair((one, j), (other, k))?;
+            }
+            return Ok(());
+        };
+        let (a, b) = (Lines::new(&a), Lines::new(&b));
+        let near = near & a.within_reach(&self.strips[other]);
+        if near == 0 {
+            return Ok(());
+        }
+        let far = far & b.within_reach(&self.strips[one]);
+        for j in bits(near) {
+            for k in bits(far & !b.one_side(a.edge(j))) {
+                self.pair((one, j), (other, k))?;
             }
         }
+        Ok(())
     }
-    Ok(())
+
+    /// All pairs of edges of one leaf, all of one ring.
+    fn alone(&mut self, leaf: usize, lines: &Lines) -> Result<(), Doubt> {
+        for j in 0..FAN - 2 {
+            for k in bits(!lines.one_side(lines.edge(j)) & (0xfc << j & 0xff)) {
+                self.pair((leaf, j), (leaf, k))?;
+            }
+        }
+        Ok(())
+    }
 }
 
 /// Whether two closed edges share a point.
@@ -166,29 +171,8 @@ fn one_side((a, b): (Point, Point), (c, d): (Point, Point)) -> bool {
     from > 0.0 && to > 0.0 || from < 0.0 && to < 0.0
 }
 
-/// The edges of a run that may reach into a box, one bit each.
-#[inline]
-fn within_reach(chain: &Chain, code: impl Fn(Point) -> u8) -> u32 {
-    let mut edges = 0;
-    let mut before = code(chain.points()[0]);
-    for (k, &p) in chain.points()[1..].iter().enumerate() {
-        let at = code(p);
-        edges |= u32::from(before & at == 0) << k;
-        before = at;
-    }
-    edges
-}
-
-/// Beyond which sides of a box a point lies, one bit each.
-#[inline]
-fn code(bounds: &Rect, p: Point) -> u8 {
-    u8::from(p.x < bounds.min.x)
-        | u8::from(p.x > bounds.max.x) << 1
-        | u8::from(p.y < bounds.min.y) << 2
-        | u8::from(p.y > bounds.max.y) << 3
-}
-
-fn bits(mut set: u32) -> impl Iterator<Item = usize> {
+/// The numbers of the bits of a set.
+pub(super) fn bits(mut set: u32) -> impl Iterator<Item = usize> {
     std::iter::from_fn(move || {
         let first = set.trailing_zeros();
         (set != 0).then(|| {

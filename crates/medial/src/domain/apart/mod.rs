@@ -26,11 +26,10 @@ mod tests;
 mod tree;
 
 use join::{Doubt, join};
-use tree::Tree;
+use tree::{Bounds, Tree};
 
 use super::rings::Rings;
 use super::status::NONE;
-use crate::geom::Rect;
 
 /// Which ring lies right below the lowest of the leftmost vertices of each ring.
 pub(super) struct Nesting {
@@ -48,9 +47,9 @@ enum Below {
 }
 
 /// Shows that the rings are simple and apart, and how they are nested; `None` if that is not so,
-/// or takes too long.
-pub(super) fn apart(rings: &Rings) -> Option<Nesting> {
-    let tree = Tree::new(rings);
+/// or takes too long. The rings are best in an order in which near ones follow one another.
+pub(super) fn apart(rings: &Rings, order: Vec<u32>) -> Option<Nesting> {
+    let tree = Tree::new(rings, order);
     let mut proof = Err(Doubt::Costly);
     if !spreads(&tree) {
         proof = join(&tree, &[]);
@@ -65,13 +64,12 @@ pub(super) fn apart(rings: &Rings) -> Option<Nesting> {
 
 /// Whether the leaves' boxes overlap so much that a join by boxes is hopeless.
 fn spreads(tree: &Tree) -> bool {
-    let area = |b: &Rect| (b.max.x - b.min.x) * (b.max.y - b.min.y);
-    let leaves = tree.boxes.iter().take(tree.leaves.len()).map(area).sum::<f64>();
-    leaves > OVERLAP * tree.boxes.last().map_or(0.0, area)
+    let area = |b: Bounds| (b.max[0] - b.min[0]) * (b.max[1] - b.min[1]);
+    tree.leaf_bounds().map(area).sum::<f32>() > OVERLAP * area(tree.bounds())
 }
 
 /// Number of boxes over each place, on average, up to which they are of use.
-const OVERLAP: f64 = 4.0;
+const OVERLAP: f32 = 4.0;
 
 impl Nesting {
     /// The smallest ring around each ring, or `NONE`.

@@ -1,4 +1,4 @@
-use super::tree::{Chain, FAN, Tree};
+use super::tree::{FAN, Tree};
 use crate::domain::unit::unit_vector;
 use crate::geom::{Point, Rect};
 
@@ -19,19 +19,30 @@ pub(super) struct Strip {
 const SLACK: f64 = 32.0 * f64::EPSILON;
 
 impl Strip {
-    fn around(chain: &Chain) -> Self {
-        let length2 = |k: usize| {
-            let (a, b) = chain.edge(k);
-            (b - a).norm2()
-        };
-        let longest = (0..chain.len).max_by(|&j, &k| length2(j).total_cmp(&length2(k)));
-        let (origin, end) = chain.edge(longest.unwrap_or(0));
+    /// A strip around the edges of a leaf, along the longest.
+    fn around(tree: &Tree, leaf: usize) -> Option<Self> {
+        let mut edges = [(Point::default(), Point::default()); FAN];
+        let mut len = 0;
+        while len < FAN && leaf * FAN + len < tree.rings.points.len() {
+            edges[len] = tree.ends(tree.locate(leaf, len));
+            len += 1;
+        }
+        let edges = &edges[..len];
+        let length2 = |&(a, b): &(Point, Point)| (b - a).norm2();
+        let (mut longest, mut most) = (edges.first()?, 0.0);
+        for edge in edges {
+            let length2 = length2(edge);
+            if length2 > most {
+                (longest, most) = (edge, length2);
+            }
+        }
+        let &(origin, end) = longest;
         let (along, _) = unit_vector(origin, end);
-        let range = chain.points().iter().fold(Rect::EMPTY, |range, &p| {
+        let range = edges.iter().flat_map(|&(a, b)| [a, b]).fold(Rect::EMPTY, |range, p| {
             let offset = p - origin;
             range.with(Point::new(along.dot(offset), along.cross(offset)))
         });
-        Self::within(origin, along, range)
+        Some(Self::within(origin, along, range))
     }
 
     fn within(origin: Point, along: Point, range: Rect) -> Self {
@@ -81,26 +92,70 @@ impl Strip {
         };
         beyond(self, other) || beyond(other, self)
     }
+}
 
-    /// Beyond which sides of the strip a point lies for certain, one bit each.
+/// The vertices of eight consecutive edges, in an order that processors like.
+pub(super) struct Lines {
+    x: [f64; FAN + 2],
+    y: [f64; FAN + 2],
+}
+
+/// Share of its terms that an orientation must exceed: its rounding is at most 3 · 2^-53 of them,
+/// and the rest covers the second order.
+const TURN_ERROR: f64 = 4.0 * f64::EPSILON / 2.0;
+
+impl Lines {
     #[inline]
-    pub(super) fn code(&self, p: Point) -> u8 {
-        let offset = p - self.origin;
-        let x = self.along.dot(offset) - self.mid.x;
-        let y = self.along.cross(offset) - self.mid.y;
-        let size = offset.x.abs() + offset.y.abs() + self.mid.x.abs() + self.mid.y.abs();
-        let half = self.half + Point::new(SLACK * size, SLACK * size);
-        u8::from(x < -half.x)
-            | u8::from(x > half.x) << 1
-            | u8::from(y < -half.y) << 2
-            | u8::from(y > half.y) << 3
+    pub(super) fn new(points: &[Point; FAN + 1]) -> Self {
+        let at = |k: usize| points[k.min(FAN)];
+        Self { x: std::array::from_fn(|k| at(k).x), y: std::array::from_fn(|k| at(k).y) }
+    }
+
+    pub(super) fn edge(&self, k: usize) -> (Point, Point) {
+        (Point::new(self.x[k], self.y[k]), Point::new(self.x[k + 1], self.y[k + 1]))
+    }
+
+    /// The edges that may reach into a strip, one bit each.
+    #[inline]
+    pub(super) fn within_reach(&self, strip: &Strip) -> u32 {
+        let mut sides = [0; 4];
+        let fixed = SLACK * (strip.mid.x.abs() + strip.mid.y.abs());
+        for k in 0..=FAN {
+            let (dx, dy) = (self.x[k] - strip.origin.x, self.y[k] - strip.origin.y);
+            let x = strip.along.x * dx + strip.along.y * dy - strip.mid.x;
+            let y = strip.along.x * dy - strip.along.y * dx - strip.mid.y;
+            let slack = SLACK * (dx.abs() + dy.abs()) + fixed;
+            let (half_x, half_y) = (strip.half.x + slack, strip.half.y + slack);
+            sides[0] |= u32::from(x < -half_x) << k;
+            sides[1] |= u32::from(x > half_x) << k;
+            sides[2] |= u32::from(y < -half_y) << k;
+            sides[3] |= u32::from(y > half_y) << k;
+        }
+        // Both ends of an edge beyond one side.
+        let beyond = sides.into_iter().fold(0, |all, side| all | side & side >> 1);
+        !beyond & 0xff
+    }
+
+    /// The edges that lie on one side of the line of an edge for certain, one bit each.
+    #[inline]
+    pub(super) fn one_side(&self, (a, b): (Point, Point)) -> u32 {
+        let along = b - a;
+        let (mut left, mut right) = (0, 0);
+        for k in 0..=FAN {
+            let up = along.x * (self.y[k] - a.y);
+            let down = along.y * (self.x[k] - a.x);
+            let (turn, bound) = (up - down, TURN_ERROR * (up.abs() + down.abs()));
+            left |= u32::from(turn > bound) << k;
+            right |= u32::from(-turn > bound) << k;
+        }
+        (left & left >> 1 | right & right >> 1) & 0xff
     }
 }
 
-/// Strips around all nodes of a tree, in the order of its boxes.
+/// Strips around all nodes of a tree, in the order of its nodes.
 pub(super) fn strips(tree: &Tree) -> Vec<Strip> {
-    let mut strips: Vec<Strip> = Vec::with_capacity(tree.boxes.len());
-    strips.extend((0..tree.leaves.len()).map(|leaf| Strip::around(&tree.chain(leaf))));
+    let mut strips: Vec<Strip> = Vec::with_capacity(tree.nodes.len());
+    strips.extend((0..tree.n_leaves()).filter_map(|leaf| Strip::around(tree, leaf)));
     let mut first = 0;
     while strips.len() - first > 1 {
         let last = strips.len();

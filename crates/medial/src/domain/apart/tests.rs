@@ -62,11 +62,11 @@ fn agrees(polygons: &[Vec<Vec<Point>>], regroup: bool) -> (bool, bool) {
     let Ok((mut rings, report)) = clean() else { return (false, false) };
     rings.number();
     let touches = touches(&rings);
-    let tree = Tree::new(&rings);
+    let tree = Tree::new(&rings, rings.order());
     let expected = if touches { Err(Doubt::Touch) } else { Ok(()) };
     assert_eq!(join(&tree, &[]), expected, "{polygons:?}");
     assert_eq!(join(&tree, &strips(&tree)), expected, "{polygons:?}");
-    let Some(nesting) = apart(&rings) else {
+    let Some(nesting) = apart(&rings, rings.order()) else {
         assert!(touches, "{polygons:?}");
         return (false, false);
     };
@@ -196,7 +196,7 @@ fn a_ring_lies_above_the_nearest_of_two_edges_from_one_corner() {
     let polygons = [vec![outer, hole]];
     let mut report = Report::default();
     let rings = Rings::clean(&polygons, &Options::default(), &mut report).expect("two rings");
-    let nesting = apart(&rings).expect("apart");
+    let nesting = apart(&rings, rings.order()).expect("apart");
     assert_eq!(nesting.below, [Below::Nothing, Below::Inside(0)]);
     assert_eq!(agrees(&polygons, false), (true, true));
 }
