@@ -45,7 +45,8 @@ impl Domain {
     ) -> Result<Self, DomainError> {
         let mut report = Report::default();
         let mut rings = Rings::clean(polygons, options, &mut report)?;
-        let nesting = apart(&rings, rings.order());
+        let order = rings.order();
+        let nesting = apart(&rings, &order);
         if options.regroup {
             let parents = match &nesting {
                 Some(nesting) => nesting.parents(),
@@ -57,7 +58,10 @@ impl Domain {
             regroup(&mut rings, &parents, &mut report);
         }
         match nesting {
-            Some(nesting) if nesting.sides_agree(&rings) => Self::of_rings(rings, &nesting, report),
+            Some(nesting) if nesting.sides_agree(&rings) => {
+                let order = (rings.lone && !options.regroup).then_some(order);
+                Self::of_rings(rings, &nesting, order, report)
+            }
             _ => Self::of_touching_rings(rings, polygons.len(), options, report),
         }
     }
@@ -66,10 +70,11 @@ impl Domain {
     pub(super) fn of_rings(
         rings: Rings,
         nesting: &Nesting,
+        order: Option<Vec<u32>>,
         report: Report,
     ) -> Result<Self, DomainError> {
         let outlines = Outlines::of_rings(rings);
-        let order = outlines.order();
+        let order = order.unwrap_or_else(|| outlines.order());
         let mut domain = outlines.into_domain(&order, report);
         domain.number_components(|_| {
             let mut places = vec![NONE; order.len()];

@@ -56,21 +56,19 @@ impl Outlines {
             let range = first as usize..(first + len) as usize;
             let (points, corners) = (&self.points[range.clone()], &self.corners[range]);
             let begin = edges.len() as u32;
-            let mut at = start as usize;
-            for k in 0..len {
-                let after = if at + 1 == points.len() { 0 } else { at + 1 };
-                let (direction, length) = unit_vector(points[at], points[after]);
-                edges.push(Edge {
-                    start: points[at],
-                    direction,
-                    length,
-                    next: if k + 1 < len { begin + k + 1 } else { begin },
-                    prev: begin + if k > 0 { k - 1 } else { len - 1 },
-                    walk: number,
-                    corner: corners[at],
-                });
-                at = after;
-            }
+            let edge = |k: u32, at: usize, end: Point| {
+                let (direction, length) = unit_vector(points[at], end);
+                let corner = corners[at];
+                // Wrong at both ends for now.
+                let (next, prev) = (begin + k + 1, (begin + k).wrapping_sub(1));
+                Edge { start: points[at], direction, length, next, prev, walk: number, corner }
+            };
+            let (begins, last) = (start as usize, points.len() - 1);
+            edges.extend((begins..last).zip(0..).map(|(at, k)| edge(k, at, points[at + 1])));
+            edges.push(edge(len - 1 - start, last, points[0]));
+            edges.extend((0..begins).zip(len - start..).map(|(at, k)| edge(k, at, points[at + 1])));
+            edges[begin as usize].prev = begin + len - 1;
+            edges[(begin + len - 1) as usize].next = begin;
             walks.push(Walk { first: begin, len, hole, polygon, component: 0 });
             sources.push(source);
         }

@@ -17,75 +17,98 @@ const SLACK: f64 = 8.0 * f64::EPSILON;
 /// What lies right below each ring, which are apart; `None` if that takes too long.
 pub(super) fn all(tree: &Tree) -> Option<Vec<Below>> {
     let rings = tree.rings;
-    let mut work = 0;
+    let mut search = Search::new(tree);
     let mut allowed = FIRST_WORK;
-    (0..rings.rings.len() as u32)
-        .map(|ring| {
-            allowed += WORK;
-            let points = rings.ring_points(ring).iter().copied();
-            let lowest = points.reduce(|a, b| if b.lexicographic(a).is_lt() { b } else { a })?;
-            let [x, y] = [tree.map.x(lowest.x), tree.map.y(lowest.y)];
-            let ray = Bounds { min: [x, f32::NEG_INFINITY], max: [x, y] };
-            let mut search = Search { tree, from: lowest, ray, best: None, work };
-            search.run();
-            work = search.work;
-            (work <= allowed).then(|| search.found())
-        })
-        .collect()
+    let mut below = Vec::with_capacity(rings.rings.len());
+    for ring in 0..rings.rings.len() as u32 {
+        let points = rings.ring_points(ring);
+        let mut lowest = *points.first()?;
+        for &p in points {
+            if p.x < lowest.x || p.x == lowest.x && p.y < lowest.y {
+                lowest = p;
+            }
+        }
+        below.push(search.below(ring, lowest));
+        allowed += WORK;
+        if search.work > allowed {
+            return None;
+        }
+    }
+    Some(below)
 }
 
-/// An edge below the point: its left and right end, and a bound on how low it is there.
+/// An edge below the point: its left and right end.
 #[derive(Clone, Copy)]
 struct Ground {
     left: Point,
     right: Point,
-    /// In the coordinates of the tree's map.
-    floor: f32,
     ring: u32,
     forward: bool,
 }
 
 struct Search<'a> {
     tree: &'a Tree<'a>,
+    ring: u32,
     from: Point,
-    /// All that is below the point.
+    /// What lies below the point, as far as is looked at.
     ray: Bounds,
     best: Option<Ground>,
     work: u64,
+    /// Nodes to look at: their upper end, level and number. At most seven wait on each of eleven
+    /// levels.
+    stack: [(f32, u32, u32); 96],
 }
 
-impl Search<'_> {
-    /// Depth first, the highest nodes first.
-    fn run(&mut self) {
-        // At most seven nodes wait on each of eleven levels.
-        let mut stack = [(f32::INFINITY, 0_u8, 0_u32); 96];
-        stack[0].1 = self.tree.height() as u8 - 1;
+impl<'a> Search<'a> {
+    fn new(tree: &'a Tree<'a>) -> Self {
+        let ray = Bounds { min: [f32::NEG_INFINITY; 2], max: [f32::NEG_INFINITY; 2] };
+        let (from, stack) = (Point::default(), [(0.0, 0, 0); 96]);
+        Self { tree, ring: 0, from, ray, best: None, work: 0, stack }
+    }
+
+    /// What lies right below a ring, given its leftmost vertex.
+    fn below(&mut self, ring: u32, from: Point) -> Below {
+        let (x, y) = (self.tree.map.x(from.x), self.tree.map.y(from.y));
+        self.ray = Bounds { min: [x, f32::NEG_INFINITY], max: [x, y] };
+        (self.ring, self.from, self.best) = (ring, from, None);
+        self.search();
+        let Some(Ground { ring, forward, .. }) = self.best else { return Below::Nothing };
+        // Above an edge that runs to the right lies what is left of its ring.
+        if forward == self.tree.rings.rings[ring as usize].hole {
+            Below::Outside(ring)
+        } else {
+            Below::Inside(ring)
+        }
+    }
+
+    /// Looks at all edges along the ray, which ends at the best one, the highest nodes first.
+    fn search(&mut self) {
+        self.stack[0] = (f32::INFINITY, self.tree.height() as u32 - 1, 0);
         let mut len = 1;
         while len > 0 {
             len -= 1;
-            let (top, level, place) = stack[len];
-            if self.best.is_some_and(|b| top < b.floor) {
+            let (top, level, place) = self.stack[len];
+            if top < self.ray.min[1] {
                 continue;
             }
             self.work += 1;
-            let node = self.tree.node(usize::from(level), place as usize);
-            let reached = node.meets(&self.ray, &self.tree.powers);
-            if level == 0 {
-                for k in bits(reached) {
-                    self.edge(place as usize, k);
-                }
-                continue;
-            }
+            let node = self.tree.node(level as usize, place as usize);
             let waiting = len;
-            for k in bits(reached) {
-                let top = node.child(k).max[1].min(self.ray.max[1]);
-                // Insertion sort, the highest last.
+            for k in bits(node.meets(&self.ray, &self.tree.powers)) {
+                let top = node.child(k).max[1];
+                if level == 0 {
+                    // The ray may be shorter by now.
+                    if top >= self.ray.min[1] {
+                        self.edge(place as usize, k);
+                    }
+                    continue;
+                }
                 let mut at = len;
-                while at > waiting && stack[at - 1].0 > top {
-                    stack[at] = stack[at - 1];
+                while at > waiting && self.stack[at - 1].0 > top {
+                    self.stack[at] = self.stack[at - 1];
                     at -= 1;
                 }
-                stack[at] = (top, level - 1, place * FAN as u32 + k as u32);
+                self.stack[at] = (top, level - 1, place * FAN as u32 + k as u32);
                 len += 1;
             }
         }
@@ -93,6 +116,10 @@ impl Search<'_> {
 
     fn edge(&mut self, leaf: usize, k: usize) {
         let located = self.tree.locate(leaf, k);
+        // None of the ring itself lies below its leftmost vertex.
+        if located.ring == self.ring {
+            return;
+        }
         let (start, end) = self.tree.ends(located);
         let forward = start.x < end.x;
         let (left, right) = if forward { (start, end) } else { (end, start) };
@@ -105,19 +132,10 @@ impl Search<'_> {
         let share = (self.from.x - left.x) / (right.x - left.x);
         let height = left.y + (right.y - left.y) * share;
         let floor = self.tree.map.y(height - SLACK * (left.y.abs() + right.y.abs()));
-        let found = Ground { left, right, floor, ring: located.ring, forward };
+        let found = Ground { left, right, ring: located.ring, forward };
         if self.best.is_none_or(|best| lies_above(&found, &best)) {
             self.best = Some(found);
-        }
-    }
-
-    fn found(&self) -> Below {
-        let Some(Ground { ring, forward, .. }) = self.best else { return Below::Nothing };
-        // Above an edge that runs to the right lies what is left of its ring.
-        if forward == self.tree.rings.rings[ring as usize].hole {
-            Below::Outside(ring)
-        } else {
-            Below::Inside(ring)
+            self.ray.min[1] = floor;
         }
     }
 }

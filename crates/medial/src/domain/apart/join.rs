@@ -1,6 +1,6 @@
 //! The tree of boxes against itself.
 
-use super::strip::{Lines, Strip};
+use super::strip::{Lines, Strip, WidePowers};
 use super::tree::{Bounds, FAN, Tree};
 use crate::geom::{Point, orient2d};
 
@@ -19,13 +19,15 @@ const FIRST_WORK: u64 = 4096;
 /// Shows that no two edges share a point, but consecutive ones their corner. With `strips` around
 /// the nodes they are used too.
 pub(super) fn join(tree: &Tree, strips: &[Strip]) -> Result<(), Doubt> {
-    let mut join = Join { tree, strips, work: 0, done: 0 };
+    let powers = std::array::from_fn(|k| 1 << k);
+    let mut join = Join { tree, strips, powers, work: 0, done: 0 };
     join.within(tree.height() - 1, 0)
 }
 
 struct Join<'a> {
     tree: &'a Tree<'a>,
     strips: &'a [Strip],
+    powers: WidePowers,
     work: u64,
     /// Leaves compared with themselves so far.
     done: u64,
@@ -75,18 +77,22 @@ impl Join<'_> {
         if self.work > WORK * self.done + FIRST_WORK {
             return Err(Doubt::Costly);
         }
-        if !self.strips.is_empty() && self.separated(level, one, other) {
+        if !self.strips.is_empty() && self.separated((level, one), (level, other)) {
             return Ok(());
         }
         let (a, b) = (self.tree.node(level, one), self.tree.node(level, other));
         let powers = &self.tree.powers;
-        let near = a.meets(bounds, powers);
+        let mut near = a.meets(bounds, powers);
         if near == 0 {
             return Ok(());
         }
-        let far = b.meets(own, powers);
-        if level == 0 && !self.strips.is_empty() {
-            return self.leaves(one, other, near, far);
+        let mut far = b.meets(own, powers);
+        if !self.strips.is_empty() {
+            if level == 0 {
+                return self.leaves(one, other, near, far);
+            }
+            near = self.reaching((level, one), near, (level, other));
+            far = self.reaching((level, other), far, (level, one));
         }
         for j in bits(near) {
             let child = a.child(j);
@@ -106,8 +112,15 @@ impl Join<'_> {
         Ok(())
     }
 
-    fn separated(&self, level: usize, one: usize, other: usize) -> bool {
-        let strip = |node| &self.strips[self.tree.place(level, node)];
+    /// Of the given children of a node, those whose strips meet that of another node.
+    fn reaching(&self, (level, node): (usize, usize), set: u32, other: (usize, usize)) -> u32 {
+        let meets = |&k: &usize| !self.separated((level - 1, node * FAN + k), other);
+        bits(set).filter(meets).fold(0, |set, k| set | 1 << k)
+    }
+
+    /// Whether the strips of two nodes, each given by its level and number, are apart.
+    fn separated(&self, one: (usize, usize), other: (usize, usize)) -> bool {
+        let strip = |node: (usize, usize)| &self.strips[self.tree.place(node.0, node.1)];
         strip(one).misses(strip(other))
     }
 
@@ -130,13 +143,16 @@ impl Join<'_> {
             return Ok(());
         };
         let (a, b) = (Lines::new(&a), Lines::new(&b));
-        let near = near & a.within_reach(&self.strips[other]);
+        let near = near & a.within_reach(&self.strips[other], &self.powers);
         if near == 0 {
             return Ok(());
         }
-        let far = far & b.within_reach(&self.strips[one]);
+        let far = far & b.within_reach(&self.strips[one], &self.powers);
         for j in bits(near) {
-            for k in bits(far & !b.one_side(a.edge(j))) {
+            if far == 0 {
+                break;
+            }
+            for k in bits(far & b.across(a.edge(j), &self.powers)) {
                 self.pair((one, j), (other, k))?;
             }
         }
@@ -146,7 +162,8 @@ impl Join<'_> {
     /// All pairs of edges of one leaf, all of one ring.
     fn alone(&mut self, leaf: usize, lines: &Lines) -> Result<(), Doubt> {
         for j in 0..FAN - 2 {
-            for k in bits(!lines.one_side(lines.edge(j)) & (0xfc << j & 0xff)) {
+            let later = 0xfc << j;
+            for k in bits(lines.across(lines.edge(j), &self.powers) & later) {
                 self.pair((leaf, j), (leaf, k))?;
             }
         }

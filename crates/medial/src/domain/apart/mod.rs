@@ -48,7 +48,7 @@ enum Below {
 
 /// Shows that the rings are simple and apart, and how they are nested; `None` if that is not so,
 /// or takes too long. The rings are best in an order in which near ones follow one another.
-pub(super) fn apart(rings: &Rings, order: Vec<u32>) -> Option<Nesting> {
+pub(super) fn apart(rings: &Rings, order: &[u32]) -> Option<Nesting> {
     let tree = Tree::new(rings, order);
     let mut proof = Err(Doubt::Costly);
     if !spreads(&tree) {

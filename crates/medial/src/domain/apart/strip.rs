@@ -21,28 +21,27 @@ const SLACK: f64 = 32.0 * f64::EPSILON;
 impl Strip {
     /// A strip around the edges of a leaf, along the longest.
     fn around(tree: &Tree, leaf: usize) -> Option<Self> {
-        let mut edges = [(Point::default(), Point::default()); FAN];
-        let mut len = 0;
-        while len < FAN && leaf * FAN + len < tree.rings.points.len() {
-            edges[len] = tree.ends(tree.locate(leaf, len));
-            len += 1;
+        if let Some(points) = tree.chain(leaf) {
+            let lines = Lines::new(&points);
+            let longest = lines.longest();
+            return Some(Self::along(lines.edge(longest), |frame| lines.range(frame)));
         }
-        let edges = &edges[..len];
+        let edges = (0..FAN).filter(|k| leaf * FAN + k < tree.rings.points.len());
+        let edges: Vec<_> = edges.map(|k| tree.ends(tree.locate(leaf, k))).collect();
         let length2 = |&(a, b): &(Point, Point)| (b - a).norm2();
-        let (mut longest, mut most) = (edges.first()?, 0.0);
-        for edge in edges {
-            let length2 = length2(edge);
-            if length2 > most {
-                (longest, most) = (edge, length2);
-            }
-        }
-        let &(origin, end) = longest;
-        let (along, _) = unit_vector(origin, end);
-        let range = edges.iter().flat_map(|&(a, b)| [a, b]).fold(Rect::EMPTY, |range, p| {
-            let offset = p - origin;
-            range.with(Point::new(along.dot(offset), along.cross(offset)))
-        });
-        Some(Self::within(origin, along, range))
+        let longest = edges.iter().max_by(|e, f| length2(e).total_cmp(&length2(f)))?;
+        Some(Self::along(*longest, |frame| {
+            edges.iter().flat_map(|&(a, b)| [a, b]).fold(Rect::EMPTY, |range, p| {
+                let offset = p - frame.0;
+                range.with(Point::new(frame.1.dot(offset), frame.1.cross(offset)))
+            })
+        }))
+    }
+
+    /// A strip along an edge, given the range of coordinates seen from its start and direction.
+    fn along(edge: (Point, Point), range: impl Fn((Point, Point)) -> Rect) -> Self {
+        let (along, _) = unit_vector(edge.0, edge.1);
+        Self::within(edge.0, along, range((edge.0, along)))
     }
 
     fn within(origin: Point, along: Point, range: Rect) -> Self {
@@ -94,62 +93,113 @@ impl Strip {
     }
 }
 
-/// The vertices of eight consecutive edges, in an order that processors like.
+/// The vertices of eight consecutive edges in columns, the last one twice: processors like that.
 pub(super) struct Lines {
-    x: [f64; FAN + 2],
-    y: [f64; FAN + 2],
+    x: Column,
+    y: Column,
 }
 
+type Column = [f64; FAN + 2];
+
+/// As [`Powers`](super::tree::Powers), for lanes as wide as doubles.
+pub(super) type WidePowers = [u64; FAN];
+
 /// Share of its terms that an orientation must exceed: its rounding is at most 3 · 2^-53 of them,
-/// and the rest covers the second order.
-const TURN_ERROR: f64 = 4.0 * f64::EPSILON / 2.0;
+/// and the rest covers the second order, and the comparison.
+const TURN_ERROR: f64 = 8.0 * f64::EPSILON / 2.0;
 
 impl Lines {
     #[inline]
     pub(super) fn new(points: &[Point; FAN + 1]) -> Self {
-        let at = |k: usize| points[k.min(FAN)];
+        let at = |k: usize| points[if k > FAN { FAN } else { k }];
         Self { x: std::array::from_fn(|k| at(k).x), y: std::array::from_fn(|k| at(k).y) }
     }
 
+    #[inline]
     pub(super) fn edge(&self, k: usize) -> (Point, Point) {
         (Point::new(self.x[k], self.y[k]), Point::new(self.x[k + 1], self.y[k + 1]))
     }
 
-    /// The edges that may reach into a strip, one bit each.
-    #[inline]
-    pub(super) fn within_reach(&self, strip: &Strip) -> u32 {
-        let mut sides = [0; 4];
-        let fixed = SLACK * (strip.mid.x.abs() + strip.mid.y.abs());
-        for k in 0..=FAN {
-            let (dx, dy) = (self.x[k] - strip.origin.x, self.y[k] - strip.origin.y);
-            let x = strip.along.x * dx + strip.along.y * dy - strip.mid.x;
-            let y = strip.along.x * dy - strip.along.y * dx - strip.mid.y;
-            let slack = SLACK * (dx.abs() + dy.abs()) + fixed;
-            let (half_x, half_y) = (strip.half.x + slack, strip.half.y + slack);
-            sides[0] |= u32::from(x < -half_x) << k;
-            sides[1] |= u32::from(x > half_x) << k;
-            sides[2] |= u32::from(y < -half_y) << k;
-            sides[3] |= u32::from(y > half_y) << k;
-        }
-        // Both ends of an edge beyond one side.
-        let beyond = sides.into_iter().fold(0, |all, side| all | side & side >> 1);
-        !beyond & 0xff
+    fn longest(&self) -> usize {
+        let length2: [f64; FAN] = std::array::from_fn(|k| {
+            let (x, y) = (self.x[k + 1] - self.x[k], self.y[k + 1] - self.y[k]);
+            x * x + y * y
+        });
+        (0..FAN).fold(0, |best, k| if length2[k] > length2[best] { k } else { best })
     }
 
-    /// The edges that lie on one side of the line of an edge for certain, one bit each.
+    /// Coordinates along and across a direction, from an origin, and the sum of all differences.
     #[inline]
-    pub(super) fn one_side(&self, (a, b): (Point, Point)) -> u32 {
-        let along = b - a;
-        let (mut left, mut right) = (0, 0);
-        for k in 0..=FAN {
-            let up = along.x * (self.y[k] - a.y);
-            let down = along.y * (self.x[k] - a.x);
-            let (turn, bound) = (up - down, TURN_ERROR * (up.abs() + down.abs()));
-            left |= u32::from(turn > bound) << k;
-            right |= u32::from(-turn > bound) << k;
-        }
-        (left & left >> 1 | right & right >> 1) & 0xff
+    fn seen_from(&self, origin: Point, along: Point) -> (Column, Column, f64) {
+        let dx = self.x.map(|x| x - origin.x);
+        let dy = self.y.map(|y| y - origin.y);
+        let x = std::array::from_fn(|k| along.x * dx[k] + along.y * dy[k]);
+        let y = std::array::from_fn(|k| along.x * dy[k] - along.y * dx[k]);
+        let sizes: Column = std::array::from_fn(|k| dx[k].abs() + dy[k].abs());
+        (x, y, sum(&sizes))
     }
+
+    fn range(&self, (origin, along): (Point, Point)) -> Rect {
+        let (x, y, _) = self.seen_from(origin, along);
+        let least = |list: &Column| list.iter().copied().fold(f64::INFINITY, lesser);
+        let most = |list: &Column| list.iter().copied().fold(f64::NEG_INFINITY, larger);
+        Rect { min: Point::new(least(&x), least(&y)), max: Point::new(most(&x), most(&y)) }
+    }
+
+    /// The edges that may reach into a strip, one bit each.
+    #[inline]
+    pub(super) fn within_reach(&self, strip: &Strip, powers: &WidePowers) -> u32 {
+        let (x, y, size) = self.seen_from(strip.origin, strip.along);
+        let slack = SLACK * (size + strip.mid.x.abs() + strip.mid.y.abs());
+        let half = strip.half + Point::new(slack, slack);
+        let (low, high) = (strip.mid - half, strip.mid + half);
+        // Both ends beyond one side.
+        marked(powers, |k| {
+            (lesser(x[k], x[k + 1]) <= high.x)
+                & (larger(x[k], x[k + 1]) >= low.x)
+                & (lesser(y[k], y[k + 1]) <= high.y)
+                & (larger(y[k], y[k + 1]) >= low.y)
+        })
+    }
+
+    /// The edges that may have places on both sides of the line of an edge, or on it, one bit each.
+    #[inline]
+    pub(super) fn across(&self, (a, b): (Point, Point), powers: &WidePowers) -> u32 {
+        let along = b - a;
+        let up = self.y.map(|y| along.x * (y - a.y));
+        let down = self.x.map(|x| along.y * (x - a.x));
+        let bound: Column = std::array::from_fn(|k| TURN_ERROR * (up[k].abs() + down[k].abs()));
+        let low: Column = std::array::from_fn(|k| up[k] - down[k] - bound[k]);
+        let high: Column = std::array::from_fn(|k| up[k] - down[k] + bound[k]);
+        marked(powers, |k| {
+            (lesser(low[k], low[k + 1]) <= 0.0) & (larger(high[k], high[k + 1]) >= 0.0)
+        })
+    }
+}
+
+#[inline]
+fn marked(powers: &WidePowers, is_marked: impl Fn(usize) -> bool) -> u32 {
+    let lanes: [u64; FAN] = std::array::from_fn(|k| if is_marked(k) { powers[k] } else { 0 });
+    lanes.into_iter().fold(0, |all, lane| all | lane) as u32
+}
+
+#[inline]
+fn sum(list: &Column) -> f64 {
+    let pairs: [f64; 2] = std::array::from_fn(|k| {
+        (list[k] + list[k + 2]) + (list[k + 4] + list[k + 6]) + list[k + 8]
+    });
+    pairs[0] + pairs[1]
+}
+
+// Comparisons that are one instruction each; there is no NaN.
+#[inline]
+fn lesser(a: f64, b: f64) -> f64 {
+    if b < a { b } else { a }
+}
+
+#[inline]
+fn larger(a: f64, b: f64) -> f64 {
+    if b > a { b } else { a }
 }
 
 /// Strips around all nodes of a tree, in the order of its nodes.

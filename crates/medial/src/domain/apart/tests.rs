@@ -62,11 +62,12 @@ fn agrees(polygons: &[Vec<Vec<Point>>], regroup: bool) -> (bool, bool) {
     let Ok((mut rings, report)) = clean() else { return (false, false) };
     rings.number();
     let touches = touches(&rings);
-    let tree = Tree::new(&rings, rings.order());
+    let order = rings.order();
+    let tree = Tree::new(&rings, &order);
     let expected = if touches { Err(Doubt::Touch) } else { Ok(()) };
     assert_eq!(join(&tree, &[]), expected, "{polygons:?}");
     assert_eq!(join(&tree, &strips(&tree)), expected, "{polygons:?}");
-    let Some(nesting) = apart(&rings, rings.order()) else {
+    let Some(nesting) = apart(&rings, &order) else {
         assert!(touches, "{polygons:?}");
         return (false, false);
     };
@@ -78,7 +79,7 @@ fn agrees(polygons: &[Vec<Vec<Point>>], regroup: bool) -> (bool, bool) {
     assert_eq!(found.parents, nesting.parents(), "{polygons:?}");
     assert!(found.cuts.is_empty() && found.links.is_empty() && found.removed.is_empty());
     if !regroup && let Ok((again, same)) = clean() {
-        let fast = Domain::of_rings(rings, &nesting, report).expect("apart");
+        let fast = Domain::of_rings(rings, &nesting, None, report).expect("apart");
         let slow = Domain::of_touching_rings(again, polygons.len(), &options, same);
         assert_eq!(shown(&fast), shown(&slow.expect("valid")), "{polygons:?}");
     }
@@ -196,7 +197,8 @@ fn a_ring_lies_above_the_nearest_of_two_edges_from_one_corner() {
     let polygons = [vec![outer, hole]];
     let mut report = Report::default();
     let rings = Rings::clean(&polygons, &Options::default(), &mut report).expect("two rings");
-    let nesting = apart(&rings, rings.order()).expect("apart");
+    let order = rings.order();
+    let nesting = apart(&rings, &order).expect("apart");
     assert_eq!(nesting.below, [Below::Nothing, Below::Inside(0)]);
     assert_eq!(agrees(&polygons, false), (true, true));
 }

@@ -22,6 +22,10 @@ pub(super) struct Bounds {
 
 impl Bounds {
     const EMPTY: Self = Self { min: [f32::INFINITY; 2], max: [f32::NEG_INFINITY; 2] };
+
+    fn of([a, b]: [f32; 2], [c, d]: [f32; 2]) -> Self {
+        Self { min: [lesser(a, c), lesser(b, d)], max: [larger(a, c), larger(b, d)] }
+    }
 }
 
 impl Node {
@@ -31,6 +35,21 @@ impl Node {
         max_x: [f32::NEG_INFINITY; FAN],
         max_y: [f32::NEG_INFINITY; FAN],
     };
+
+    /// The boxes of eight consecutive edges.
+    #[inline]
+    fn of_run(map: &Map, run: &[Point; FAN + 1]) -> Self {
+        let (x, y) = (run.map(|p| map.x(p.x)), run.map(|p| map.y(p.y)));
+        let of = |choose: fn(f32, f32) -> f32, list: &[f32; FAN + 1]| {
+            std::array::from_fn(|k| choose(list[k], list[k + 1]))
+        };
+        Self {
+            min_x: of(lesser, &x),
+            min_y: of(lesser, &y),
+            max_x: of(larger, &x),
+            max_y: of(larger, &y),
+        }
+    }
 
     #[inline]
     pub(super) fn child(&self, k: usize) -> Bounds {
@@ -69,10 +88,12 @@ impl Node {
 pub(super) type Powers = [u32; FAN];
 
 // Comparisons that are one instruction each; there is no NaN.
+#[inline]
 fn lesser(a: f32, b: f32) -> f32 {
     if b < a { b } else { a }
 }
 
+#[inline]
 fn larger(a: f32, b: f32) -> f32 {
     if b > a { b } else { a }
 }
@@ -89,7 +110,13 @@ pub(super) struct Map {
 
 impl Map {
     fn new(points: &[Point]) -> Self {
-        let Rect { min, max } = points.iter().fold(Rect::EMPTY, |all, &p| all.with(p));
+        let (mut min, mut max) = (Rect::EMPTY.min, Rect::EMPTY.max);
+        for p in points {
+            min.x = if p.x < min.x { p.x } else { min.x };
+            min.y = if p.y < min.y { p.y } else { min.y };
+            max.x = if p.x > max.x { p.x } else { max.x };
+            max.y = if p.y > max.y { p.y } else { max.y };
+        }
         let scale = 1.0 / (max.x - min.x).max(max.y - min.y);
         Self { origin: (min + max) * 0.5, scale }
     }
@@ -129,7 +156,7 @@ pub(super) struct Tree<'a> {
     /// Where each level starts.
     levels: Vec<usize>,
     /// The rings in the order of the tree.
-    order: Vec<u32>,
+    order: &'a [u32],
     /// Where in the order of the tree the edges of each of them start.
     starts: Vec<u32>,
     /// Position in `order` of the ring of the first edge of each leaf.
@@ -140,7 +167,7 @@ pub(super) struct Tree<'a> {
 
 impl<'a> Tree<'a> {
     /// The tree over rings in the given order: near ones should follow one another.
-    pub(super) fn new(rings: &'a Rings<'a>, order: Vec<u32>) -> Self {
+    pub(super) fn new(rings: &'a Rings<'a>, order: &'a [u32]) -> Self {
         let n = rings.points.len();
         let n_leaves = n.div_ceil(FAN);
         let mut tree = Self {
@@ -174,7 +201,7 @@ impl<'a> Tree<'a> {
     fn add_edges(&mut self) {
         let map = self.map;
         let (mut node, mut filled, mut position) = (Node::EMPTY, 0, 0);
-        for (rank, &ring) in (0..).zip(&self.order) {
+        for (rank, &ring) in (0..).zip(self.order) {
             self.starts.push(position);
             if let Some(heads) = self.heads.get_mut(position as usize / FAN) {
                 *heads |= 1 << (position as usize % FAN);
@@ -182,18 +209,20 @@ impl<'a> Tree<'a> {
             let points = self.rings.ring_points(ring);
             position += points.len() as u32;
             let Some(&first) = points.first() else { continue };
-            let first = map.point(first);
-            let mut before = first;
-            let ends = points[1..].iter().map(|&p| map.point(p)).chain([first]);
-            for at in ends {
+            let mut at = 0;
+            while at < points.len() {
                 if filled == 0 {
                     self.ranks.push(rank);
+                    // Eight at once, as far as that goes.
+                    if let Some(run) = points[at..].first_chunk::<{ FAN + 1 }>() {
+                        self.nodes.push(Node::of_run(&map, run));
+                        at += FAN;
+                        continue;
+                    }
                 }
-                node.min_x[filled] = lesser(before[0], at[0]);
-                node.min_y[filled] = lesser(before[1], at[1]);
-                node.max_x[filled] = larger(before[0], at[0]);
-                node.max_y[filled] = larger(before[1], at[1]);
-                before = at;
+                let after = points.get(at + 1).copied().unwrap_or(first);
+                node.set(filled, Bounds::of(map.point(points[at]), map.point(after)));
+                at += 1;
                 filled += 1;
                 if filled == FAN {
                     self.nodes.push(node);
