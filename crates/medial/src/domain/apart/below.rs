@@ -2,9 +2,10 @@
 
 use std::cmp::Ordering;
 
-use super::Below;
+use super::Around;
 use super::join::bits;
-use super::tree::{Bounds, FAN, Tree};
+use super::node::{Bounds, FAN};
+use super::tree::Tree;
 use crate::geom::{Point, orient2d};
 
 /// Nodes looked at for each ring, and to begin with, until it is too much.
@@ -14,27 +15,33 @@ const FIRST_WORK: u64 = 4096;
 /// Bound on the rounding of the ordinate of an edge at an abscissa, as a share of its ends'.
 const SLACK: f64 = 8.0 * f64::EPSILON;
 
-/// What lies right below each ring, which are apart; `None` if that takes too long.
-pub(super) fn all(tree: &Tree) -> Option<Vec<Below>> {
+/// What lies around each ring, which are apart; `None` if that takes too long. Rings joined by links
+/// that are not broken have the same around them, which is what lies right below the lowest of
+/// their leftmost vertices.
+pub(super) fn all(tree: &Tree, broken: &[bool]) -> Option<Vec<Around>> {
     let rings = tree.rings;
     let mut search = Search::new(tree);
     let mut allowed = FIRST_WORK;
-    let mut below = Vec::with_capacity(rings.rings.len());
-    for ring in 0..rings.rings.len() as u32 {
-        let points = rings.ring_points(ring);
-        let mut lowest = *points.first()?;
-        for &p in points {
-            if p.x < lowest.x || p.x == lowest.x && p.y < lowest.y {
-                lowest = p;
-            }
+    let mut around = vec![Around::Nothing; rings.rings.len()];
+    let joined = |rank: usize| tree.links[rank][0] != tree.links[rank][1] && !broken[rank];
+    let mut rank = 0;
+    while rank < tree.order.len() {
+        let mut end = rank + 1;
+        while end < tree.order.len() && joined(end) {
+            end += 1;
         }
-        below.push(search.below(ring, lowest));
+        let run = &tree.order[rank..end];
+        let points = run.iter().flat_map(|&ring| rings.ring_points(ring)).copied();
+        let left = |a: Point, b: Point| a.x < b.x || a.x == b.x && a.y < b.y;
+        let found = search.below(points.reduce(|a, b| if left(b, a) { b } else { a })?);
+        run.iter().for_each(|&ring| around[ring as usize] = found);
+        rank = end;
         allowed += WORK;
         if search.work > allowed {
             return None;
         }
     }
-    Some(below)
+    Some(around)
 }
 
 /// An edge below the point: its left and right end.
@@ -48,7 +55,6 @@ struct Ground {
 
 struct Search<'a> {
     tree: &'a Tree<'a>,
-    ring: u32,
     from: Point,
     /// What lies below the point, as far as is looked at.
     ray: Bounds,
@@ -63,21 +69,21 @@ impl<'a> Search<'a> {
     fn new(tree: &'a Tree<'a>) -> Self {
         let ray = Bounds { min: [f32::NEG_INFINITY; 2], max: [f32::NEG_INFINITY; 2] };
         let (from, stack) = (Point::default(), [(0.0, 0, 0); 96]);
-        Self { tree, ring: 0, from, ray, best: None, work: 0, stack }
+        Self { tree, from, ray, best: None, work: 0, stack }
     }
 
-    /// What lies right below a ring, given its leftmost vertex.
-    fn below(&mut self, ring: u32, from: Point) -> Below {
+    /// What lies right below the leftmost vertex of a ring.
+    fn below(&mut self, from: Point) -> Around {
         let (x, y) = (self.tree.map.x(from.x), self.tree.map.y(from.y));
         self.ray = Bounds { min: [x, f32::NEG_INFINITY], max: [x, y] };
-        (self.ring, self.from, self.best) = (ring, from, None);
+        (self.from, self.best) = (from, None);
         self.search();
-        let Some(Ground { ring, forward, .. }) = self.best else { return Below::Nothing };
+        let Some(Ground { ring, forward, .. }) = self.best else { return Around::Nothing };
         // Above an edge that runs to the right lies what is left of its ring.
         if forward == self.tree.rings.rings[ring as usize].hole {
-            Below::Outside(ring)
+            Around::Outside(ring)
         } else {
-            Below::Inside(ring)
+            Around::Inside(ring)
         }
     }
 
@@ -115,12 +121,11 @@ impl<'a> Search<'a> {
     }
 
     fn edge(&mut self, leaf: usize, k: usize) {
-        let located = self.tree.locate(leaf, k);
-        // None of the ring itself lies below its leftmost vertex.
-        if located.ring == self.ring {
+        let item = self.tree.item(leaf, k);
+        if item.link.is_some() {
             return;
         }
-        let (start, end) = self.tree.ends(located);
+        let (start, end) = self.tree.ends(item);
         let forward = start.x < end.x;
         let (left, right) = if forward { (start, end) } else { (end, start) };
         // An edge counts at its left end, but not at its right one: there it is over. Upright ones
@@ -132,7 +137,7 @@ impl<'a> Search<'a> {
         let share = (self.from.x - left.x) / (right.x - left.x);
         let height = left.y + (right.y - left.y) * share;
         let floor = self.tree.map.y(height - SLACK * (left.y.abs() + right.y.abs()));
-        let found = Ground { left, right, ring: located.ring, forward };
+        let found = Ground { left, right, ring: item.ring, forward };
         if self.best.is_none_or(|best| lies_above(&found, &best)) {
             self.best = Some(found);
             self.ray.min[1] = floor;

@@ -1,7 +1,8 @@
 //! The tree of boxes against itself.
 
+use super::node::{Bounds, FAN};
 use super::strip::{Lines, Strip, WidePowers};
-use super::tree::{Bounds, FAN, Tree};
+use super::tree::{Item, Tree};
 use crate::geom::{Point, orient2d};
 
 /// Why a proof is not had.
@@ -16,18 +17,21 @@ pub(super) enum Doubt {
 const WORK: u64 = 160;
 const FIRST_WORK: u64 = 4096;
 
-/// Shows that no two edges share a point, but consecutive ones their corner. With `strips` around
-/// the nodes they are used too.
-pub(super) fn join(tree: &Tree, strips: &[Strip]) -> Result<(), Doubt> {
+/// Shows that no two edges share a point, but consecutive ones their corner; says which links share
+/// a point with an edge, their own ends apart. With `strips` around the nodes they are used too.
+pub(super) fn join(tree: &Tree, strips: &[Strip]) -> Result<Vec<bool>, Doubt> {
     let powers = std::array::from_fn(|k| 1 << k);
-    let mut join = Join { tree, strips, powers, work: 0, done: 0 };
-    join.within(tree.height() - 1, 0)
+    let broken = vec![false; tree.links.len()];
+    let mut join = Join { tree, strips, powers, broken, work: 0, done: 0 };
+    join.within(tree.height() - 1, 0)?;
+    Ok(join.broken)
 }
 
 struct Join<'a> {
     tree: &'a Tree<'a>,
     strips: &'a [Strip],
     powers: WidePowers,
+    broken: Vec<bool>,
     work: u64,
     /// Leaves compared with themselves so far.
     done: u64,
@@ -124,14 +128,27 @@ impl Join<'_> {
         strip(one).misses(strip(other))
     }
 
-    /// Two edges, each given by its leaf and its number there.
+    /// Two items, each given by its leaf and its number there.
     fn pair(&mut self, one: (usize, usize), other: (usize, usize)) -> Result<(), Doubt> {
-        let (a, b) = (self.tree.locate(one.0, one.1), self.tree.locate(other.0, other.1));
-        if a.next == b.edge || b.next == a.edge {
+        let (a, b) = (self.tree.item(one.0, one.1), self.tree.item(other.0, other.1));
+        if a.end == b.start || b.end == a.start {
             return Ok(());
         }
         self.work += 1;
-        if touch(self.tree.ends(a), self.tree.ends(b)) { Err(Doubt::Touch) } else { Ok(()) }
+        match (a.link, b.link) {
+            (None, None) if touch(self.tree.ends(a), self.tree.ends(b)) => Err(Doubt::Touch),
+            (Some(link), None) => self.check_link(link, a, b),
+            (None, Some(link)) => self.check_link(link, b, a),
+            _ => Ok(()),
+        }
+    }
+
+    /// Breaks a link that shares a point with an edge, unless it starts or ends there.
+    fn check_link(&mut self, link: usize, own: Item, edge: Item) -> Result<(), Doubt> {
+        if edge.start != own.start && edge.end != own.end && !self.broken[link] {
+            self.broken[link] = touch(self.tree.ends(own), self.tree.ends(edge));
+        }
+        Ok(())
     }
 
     /// The marked edges of two leaves, with strips.

@@ -1,17 +1,18 @@
 //! A proof that the rings of a feature are simple and apart from one another, as most are.
 //!
 //! # Contract
-//! [`apart`] says which ring lies right below each ring, if no two edges share a point but the
-//! common corner of two consecutive ones; it may decline to answer, and always does if edges
-//! touch. Then the sweep has to tell. Linear on input whose edges are near few others; the work is
-//! counted, and at most so many times the number of edges.
+//! [`apart`] says what lies around each ring, if no two edges share a point but the common corner
+//! of two consecutive ones; it may decline to answer, and always does if edges touch. Then the
+//! sweep has to tell. Linear on input whose edges are near few others; the work is counted, and at
+//! most so many times the number of edges.
 //!
 //! # Method
 //! A tree of boxes over runs of edges is joined with itself: only edges with meeting boxes are
 //! compared, exactly. A run that is monotone along an axis cannot meet itself. Where axis-parallel
 //! boxes meet too many others, boxes in the direction of the runs are tried: they separate long
 //! edges side by side, as in a star of needles. Nesting then follows from the edge right below the
-//! first vertex of each ring in lexicographic order, found in the same tree.
+//! first vertex of a ring in lexicographic order, found in the same tree; and rings joined by a
+//! link that meets no edge, which the join finds out on the way, have the same around them.
 //!
 //! # Departures
 //! The two sides of an edge differ, and those of all edges of a ring differ alike, since nothing
@@ -20,29 +21,32 @@
 
 mod below;
 mod join;
+mod links;
+mod node;
 mod strip;
 #[cfg(test)]
 mod tests;
 mod tree;
 
 use join::{Doubt, join};
-use tree::{Bounds, Tree};
+use node::Bounds;
+use tree::Tree;
 
 use super::rings::Rings;
 use super::status::NONE;
 
-/// Which ring lies right below the lowest of the leftmost vertices of each ring.
+/// What lies around each ring.
 pub(super) struct Nesting {
-    below: Vec<Below>,
+    around: Vec<Around>,
 }
 
-/// What lies right below a ring.
+/// The face in which a ring lies, by one of the rings that bound it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Below {
+enum Around {
     Nothing,
-    /// A ring, seen from inside.
+    /// That right inside a ring.
     Inside(u32),
-    /// A ring, seen from outside.
+    /// That right outside a ring.
     Outside(u32),
 }
 
@@ -57,9 +61,8 @@ pub(super) fn apart(rings: &Rings, order: &[u32]) -> Option<Nesting> {
     if proof == Err(Doubt::Costly) {
         proof = join(&tree, &strip::strips(&tree));
     }
-    proof.ok()?;
-    let below = if let [_] = rings.rings[..] { vec![Below::Nothing] } else { below::all(&tree)? };
-    Some(Nesting { below })
+    let around = below::all(&tree, &proof.ok()?)?;
+    Some(Nesting { around })
 }
 
 /// Whether the leaves' boxes overlap so much that a join by boxes is hopeless.
@@ -75,9 +78,9 @@ impl Nesting {
     /// The smallest ring around each ring, or `NONE`.
     pub(super) fn parents(&self) -> Vec<u32> {
         const OPEN: u32 = NONE - 1;
-        let mut parents = vec![OPEN; self.below.len()];
+        let mut parents = vec![OPEN; self.around.len()];
         let mut waiting = Vec::new();
-        for start in 0..self.below.len() {
+        for start in 0..self.around.len() {
             let mut ring = start;
             // What lies below starts farther left, so this ends.
             let parent = loop {
@@ -85,10 +88,10 @@ impl Nesting {
                     break parents[ring];
                 }
                 waiting.push(ring);
-                match self.below[ring] {
-                    Below::Nothing => break NONE,
-                    Below::Inside(other) => break other,
-                    Below::Outside(other) => ring = other as usize,
+                match self.around[ring] {
+                    Around::Nothing => break NONE,
+                    Around::Inside(other) => break other,
+                    Around::Outside(other) => ring = other as usize,
                 }
             };
             waiting.drain(..).for_each(|ring| parents[ring] = parent);
@@ -103,11 +106,11 @@ impl Nesting {
             let ring = &rings.rings[ring as usize];
             if ring.hole == inside { 0 } else { ring.polygon + 1 }
         };
-        self.below.iter().zip(0..).all(|(below, ring)| {
-            let found = match *below {
-                Below::Nothing => 0,
-                Below::Inside(other) => left(other, true),
-                Below::Outside(other) => left(other, false),
+        self.around.iter().zip(0..).all(|(around, ring)| {
+            let found = match *around {
+                Around::Nothing => 0,
+                Around::Inside(other) => left(other, true),
+                Around::Outside(other) => left(other, false),
             };
             found == left(ring, false)
         })

@@ -1,4 +1,5 @@
-use super::tree::{FAN, Tree};
+use super::node::FAN;
+use super::tree::Tree;
 use crate::domain::unit::unit_vector;
 use crate::geom::{Point, Rect};
 
@@ -26,8 +27,7 @@ impl Strip {
             let longest = lines.longest();
             return Some(Self::along(lines.edge(longest), |frame| lines.range(frame)));
         }
-        let edges = (0..FAN).filter(|k| leaf * FAN + k < tree.rings.points.len());
-        let edges: Vec<_> = edges.map(|k| tree.ends(tree.locate(leaf, k))).collect();
+        let edges: Vec<_> = tree.items(leaf).map(|item| tree.ends(item)).collect();
         let length2 = |&(a, b): &(Point, Point)| (b - a).norm2();
         let longest = edges.iter().max_by(|e, f| length2(e).total_cmp(&length2(f)))?;
         Some(Self::along(*longest, |frame| {
@@ -101,7 +101,7 @@ pub(super) struct Lines {
 
 type Column = [f64; FAN + 2];
 
-/// As [`Powers`](super::tree::Powers), for lanes as wide as doubles.
+/// As [`Powers`](super::node::Powers), for lanes as wide as doubles.
 pub(super) type WidePowers = [u64; FAN];
 
 /// Share of its terms that an orientation must exceed: its rounding is at most 3 · 2^-53 of them,

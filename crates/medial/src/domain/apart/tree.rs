@@ -1,151 +1,22 @@
-use crate::domain::rings::Rings;
-use crate::geom::{Point, Rect};
+use super::links::links;
+use super::node::{Bounds, FAN, Map, Node, Powers};
+use crate::domain::rings::{Ring, Rings};
+use crate::geom::Point;
 
-/// Edges of a leaf, and children of a node.
-pub(super) const FAN: usize = 8;
-
-/// Boxes of the children of one node, or of the edges of a leaf, in the coordinates of a [`Map`].
+/// An edge of a ring, or the link between two rings.
 #[derive(Clone, Copy)]
-pub(super) struct Node {
-    min_x: [f32; FAN],
-    min_y: [f32; FAN],
-    max_x: [f32; FAN],
-    max_y: [f32; FAN],
-}
-
-/// A box in the coordinates of a [`Map`].
-#[derive(Clone, Copy)]
-pub(super) struct Bounds {
-    pub(super) min: [f32; 2],
-    pub(super) max: [f32; 2],
-}
-
-impl Bounds {
-    const EMPTY: Self = Self { min: [f32::INFINITY; 2], max: [f32::NEG_INFINITY; 2] };
-
-    fn of([a, b]: [f32; 2], [c, d]: [f32; 2]) -> Self {
-        Self { min: [lesser(a, c), lesser(b, d)], max: [larger(a, c), larger(b, d)] }
-    }
-}
-
-impl Node {
-    const EMPTY: Self = Self {
-        min_x: [f32::INFINITY; FAN],
-        min_y: [f32::INFINITY; FAN],
-        max_x: [f32::NEG_INFINITY; FAN],
-        max_y: [f32::NEG_INFINITY; FAN],
-    };
-
-    /// The boxes of eight consecutive edges.
-    #[inline]
-    fn of_run(map: &Map, run: &[Point; FAN + 1]) -> Self {
-        let (x, y) = (run.map(|p| map.x(p.x)), run.map(|p| map.y(p.y)));
-        let of = |choose: fn(f32, f32) -> f32, list: &[f32; FAN + 1]| {
-            std::array::from_fn(|k| choose(list[k], list[k + 1]))
-        };
-        Self {
-            min_x: of(lesser, &x),
-            min_y: of(lesser, &y),
-            max_x: of(larger, &x),
-            max_y: of(larger, &y),
-        }
-    }
-
-    #[inline]
-    pub(super) fn child(&self, k: usize) -> Bounds {
-        Bounds { min: [self.min_x[k], self.min_y[k]], max: [self.max_x[k], self.max_y[k]] }
-    }
-
-    fn set(&mut self, k: usize, b: Bounds) {
-        [self.min_x[k], self.min_y[k]] = b.min;
-        [self.max_x[k], self.max_y[k]] = b.max;
-    }
-
-    fn cover(&self) -> Bounds {
-        let least = |list: &[f32; FAN]| list.iter().fold(f32::INFINITY, |a, &b| lesser(a, b));
-        let largest = |list: &[f32; FAN]| list.iter().fold(f32::NEG_INFINITY, |a, &b| larger(a, b));
-        Bounds {
-            min: [least(&self.min_x), least(&self.min_y)],
-            max: [largest(&self.max_x), largest(&self.max_y)],
-        }
-    }
-
-    /// The children whose closed boxes share a point with a box, one bit each.
-    #[inline]
-    pub(super) fn meets(&self, b: &Bounds, powers: &Powers) -> u32 {
-        let lanes: [u32; FAN] = std::array::from_fn(|k| {
-            let meets = (self.min_x[k] <= b.max[0])
-                & (b.min[0] <= self.max_x[k])
-                & (self.min_y[k] <= b.max[1])
-                & (b.min[1] <= self.max_y[k]);
-            if meets { powers[k] } else { 0 }
-        });
-        lanes.into_iter().fold(0, |all, lane| all | lane)
-    }
-}
-
-/// 1, 2, 4 to 128: compilers keep to vector instructions if they are read from memory.
-pub(super) type Powers = [u32; FAN];
-
-// Comparisons that are one instruction each; there is no NaN.
-#[inline]
-fn lesser(a: f32, b: f32) -> f32 {
-    if b < a { b } else { a }
-}
-
-#[inline]
-fn larger(a: f32, b: f32) -> f32 {
-    if b > a { b } else { a }
-}
-
-/// A map to small coordinates of single precision.
-///
-/// It never turns the order of two coordinates round, rounding included. So boxes that share a
-/// point have images that share one: nothing is missed.
-#[derive(Clone, Copy)]
-pub(super) struct Map {
-    origin: Point,
-    scale: f64,
-}
-
-impl Map {
-    fn new(points: &[Point]) -> Self {
-        let (mut min, mut max) = (Rect::EMPTY.min, Rect::EMPTY.max);
-        for p in points {
-            min.x = if p.x < min.x { p.x } else { min.x };
-            min.y = if p.y < min.y { p.y } else { min.y };
-            max.x = if p.x > max.x { p.x } else { max.x };
-            max.y = if p.y > max.y { p.y } else { max.y };
-        }
-        let scale = 1.0 / (max.x - min.x).max(max.y - min.y);
-        Self { origin: (min + max) * 0.5, scale }
-    }
-
-    #[inline]
-    pub(super) fn x(&self, x: f64) -> f32 {
-        ((x - self.origin.x) * self.scale) as f32
-    }
-
-    #[inline]
-    pub(super) fn y(&self, y: f64) -> f32 {
-        ((y - self.origin.y) * self.scale) as f32
-    }
-
-    #[inline]
-    fn point(&self, p: Point) -> [f32; 2] {
-        [self.x(p.x), self.y(p.y)]
-    }
-}
-
-/// An edge with its place in its ring.
-#[derive(Clone, Copy)]
-pub(super) struct Located {
-    pub(super) edge: u32,
-    pub(super) next: u32,
+pub(super) struct Item {
+    /// The vertices at both ends.
+    pub(super) start: u32,
+    pub(super) end: u32,
     pub(super) ring: u32,
+    /// For a link, the position of its ring in the order of the tree.
+    pub(super) link: Option<usize>,
 }
 
 /// A packed tree of boxes, eight to a node, over edges in boundary order, ring after ring.
+///
+/// If there are several rings, the edges of each are followed by a link, from it to the one before.
 pub(super) struct Tree<'a> {
     pub(super) rings: &'a Rings<'a>,
     pub(super) map: Map,
@@ -156,20 +27,23 @@ pub(super) struct Tree<'a> {
     /// Where each level starts.
     levels: Vec<usize>,
     /// The rings in the order of the tree.
-    order: &'a [u32],
+    pub(super) order: &'a [u32],
     /// Where in the order of the tree the edges of each of them start.
     starts: Vec<u32>,
+    /// The links of each of them, if there are several; see [`links`].
+    pub(super) links: Vec<[u32; 2]>,
     /// Position in `order` of the ring of the first edge of each leaf.
     ranks: Vec<u32>,
-    /// Which edges of each leaf are the first of their rings, one bit each.
+    /// Which items of each leaf are links, or the first edges of their rings, one bit each.
     heads: Vec<u8>,
+    n_items: u32,
 }
 
 impl<'a> Tree<'a> {
     /// The tree over rings in the given order: near ones should follow one another.
     pub(super) fn new(rings: &'a Rings<'a>, order: &'a [u32]) -> Self {
-        let n = rings.points.len();
-        let n_leaves = n.div_ceil(FAN);
+        let links = links(rings, order);
+        let n_leaves = (rings.points.len() + links.len()).div_ceil(FAN);
         let mut tree = Self {
             rings,
             map: Map::new(&rings.points),
@@ -178,10 +52,12 @@ impl<'a> Tree<'a> {
             levels: vec![0],
             starts: Vec::with_capacity(order.len()),
             order,
+            links,
             ranks: Vec::with_capacity(n_leaves),
-            heads: vec![0; n_leaves],
+            heads: Vec::with_capacity(n_leaves),
+            n_items: 0,
         };
-        tree.add_edges();
+        tree.add_items();
         let mut first = 0;
         while tree.nodes.len() - first > 1 {
             let last = tree.nodes.len();
@@ -198,44 +74,49 @@ impl<'a> Tree<'a> {
         tree
     }
 
-    fn add_edges(&mut self) {
-        let map = self.map;
-        let (mut node, mut filled, mut position) = (Node::EMPTY, 0, 0);
+    fn add_items(&mut self) {
+        let (rings, map) = (self.rings, self.map);
         for (rank, &ring) in (0..).zip(self.order) {
-            self.starts.push(position);
-            if let Some(heads) = self.heads.get_mut(position as usize / FAN) {
-                *heads |= 1 << (position as usize % FAN);
-            }
-            let points = self.rings.ring_points(ring);
-            position += points.len() as u32;
+            self.starts.push(self.n_items);
+            let points = rings.ring_points(ring);
             let Some(&first) = points.first() else { continue };
             let mut at = 0;
             while at < points.len() {
-                if filled == 0 {
+                // Eight at once, as far as that goes.
+                if self.n_items.is_multiple_of(FAN as u32)
+                    && let Some(run) = points[at..].first_chunk::<{ FAN + 1 }>()
+                {
                     self.ranks.push(rank);
-                    // Eight at once, as far as that goes.
-                    if let Some(run) = points[at..].first_chunk::<{ FAN + 1 }>() {
-                        self.nodes.push(Node::of_run(&map, run));
-                        at += FAN;
-                        continue;
-                    }
+                    self.heads.push(u8::from(at == 0));
+                    self.nodes.push(Node::of_run(&map, run));
+                    self.n_items += FAN as u32;
+                    at += FAN;
+                    continue;
                 }
                 let after = points.get(at + 1).copied().unwrap_or(first);
-                node.set(filled, Bounds::of(map.point(points[at]), map.point(after)));
+                self.push(rank, at == 0, Bounds::of(map.point(points[at]), map.point(after)));
                 at += 1;
-                filled += 1;
-                if filled == FAN {
-                    self.nodes.push(node);
-                    filled = 0;
-                }
+            }
+            if let Some(&[a, b]) = self.links.get(rank as usize) {
+                let [a, b] = [a, b].map(|k| map.point(rings.point(k)));
+                self.push(rank, true, Bounds::of(a, b));
             }
         }
-        if filled > 0 {
-            for k in filled..FAN {
-                node.set(k, Bounds::EMPTY);
-            }
-            self.nodes.push(node);
+    }
+
+    /// Adds an item; `is_head` if it does not start where the one before it ends.
+    fn push(&mut self, rank: u32, is_head: bool, bounds: Bounds) {
+        let k = self.n_items as usize % FAN;
+        if k == 0 {
+            self.ranks.push(rank);
+            self.heads.push(0);
+            self.nodes.push(Node::EMPTY);
         }
+        if let (Some(node), Some(heads)) = (self.nodes.last_mut(), self.heads.last_mut()) {
+            node.set(k, bounds);
+            *heads |= u8::from(is_head) << k;
+        }
+        self.n_items += 1;
     }
 
     pub(super) fn n_leaves(&self) -> usize {
@@ -268,38 +149,48 @@ impl<'a> Tree<'a> {
         self.nodes.last().map_or(Bounds::EMPTY, Node::cover)
     }
 
-    /// The edges of a leaf that start where the edge before them in the tree ends, one bit each.
+    /// The items of a leaf that start where the one before them in the tree ends, one bit each.
     #[inline]
     pub(super) fn followers(&self, leaf: usize) -> u32 {
         u32::from(!self.heads[leaf])
     }
 
-    /// Edge number `k` of a leaf.
+    /// Item number `k` of a leaf, which must have as many.
     #[inline]
-    pub(super) fn locate(&self, leaf: usize, k: usize) -> Located {
+    pub(super) fn item(&self, leaf: usize, k: usize) -> Item {
         let position = (leaf * FAN + k) as u32;
         let mut rank = self.ranks[leaf] as usize;
         while self.starts.get(rank + 1).is_some_and(|&start| start <= position) {
             rank += 1;
         }
         let ring = self.order[rank];
-        let record = &self.rings.rings[ring as usize];
+        let Ring { first, len, .. } = self.rings.rings[ring as usize];
         let along = position - self.starts[rank];
-        let next = if along + 1 == record.len { 0 } else { along + 1 };
-        Located { edge: record.first + along, next: record.first + next, ring }
+        if along == len {
+            let [start, end] = self.links[rank];
+            return Item { start, end, ring, link: Some(rank) };
+        }
+        let next = if along + 1 == len { 0 } else { along + 1 };
+        Item { start: first + along, end: first + next, ring, link: None }
+    }
+
+    /// The items of a leaf.
+    pub(super) fn items(&self, leaf: usize) -> impl Iterator<Item = Item> {
+        let n = (self.n_items as usize - leaf * FAN).min(FAN);
+        (0..n).map(move |k| self.item(leaf, k))
     }
 
     #[inline]
-    pub(super) fn ends(&self, located: Located) -> (Point, Point) {
-        (self.rings.point(located.edge), self.rings.point(located.next))
+    pub(super) fn ends(&self, item: Item) -> (Point, Point) {
+        (self.rings.point(item.start), self.rings.point(item.end))
     }
 
     /// The vertices of a leaf's edges, if it holds eight edges of one ring.
     #[inline]
     pub(super) fn chain(&self, leaf: usize) -> Option<[Point; FAN + 1]> {
-        let Located { edge, ring, .. } = self.locate(leaf, 0);
+        let Item { start, ring, link: None, .. } = self.item(leaf, 0) else { return None };
         let record = &self.rings.rings[ring as usize];
-        let (first, end) = (edge as usize, (record.first + record.len) as usize);
+        let (first, end) = (start as usize, (record.first + record.len) as usize);
         let run = self.rings.points.get(first..first + FAN)?;
         if first + FAN > end {
             return None;
