@@ -52,13 +52,13 @@ fn holes_along_a_curve(
         return order;
     }
     let bounds = places.iter().fold(Rect::EMPTY, |all, &w| all.with(corner(w)));
-    // Equal keys keep their order.
-    let key = |&w: &u32| (polygon(w), hilbert(&bounds, corner(w)), w);
+    // Equal keys keep their order. A position on the curve has 32 bits.
+    let key = |&w: &u32| (polygon(w), hilbert(&bounds, corner(w)) << 32 | u64::from(w));
     let mut sorted: Vec<_> = places.iter().map(key).collect();
     sorted.sort_unstable();
     places.sort_by_key(|&w| polygon(w));
-    for (place, (.., walk)) in places.into_iter().zip(sorted) {
-        order[place as usize] = walk;
+    for (place, (_, key)) in places.into_iter().zip(sorted) {
+        order[place as usize] = key as u32;
     }
     order
 }

@@ -84,6 +84,12 @@ impl Join<'_> {
         if !self.strips.is_empty() && self.separated((level, one), (level, other)) {
             return Ok(());
         }
+        if level == 0
+            && !self.strips.is_empty()
+            && let Some(chains) = self.tree.chain(one).zip(self.tree.chain(other))
+        {
+            return self.chains((one, &chains.0), (other, &chains.1));
+        }
         let (a, b) = (self.tree.node(level, one), self.tree.node(level, other));
         let powers = &self.tree.powers;
         let mut near = a.meets(bounds, powers);
@@ -91,10 +97,7 @@ impl Join<'_> {
             return Ok(());
         }
         let mut far = b.meets(own, powers);
-        if !self.strips.is_empty() {
-            if level == 0 {
-                return self.leaves(one, other, near, far);
-            }
+        if level > 0 && !self.strips.is_empty() {
             near = self.reaching((level, one), near, (level, other));
             far = self.reaching((level, other), far, (level, one));
         }
@@ -151,24 +154,22 @@ impl Join<'_> {
         Ok(())
     }
 
-    /// The marked edges of two leaves, with strips.
-    fn leaves(&mut self, one: usize, other: usize, near: u32, far: u32) -> Result<(), Doubt> {
-        let (Some(a), Some(b)) = (self.tree.chain(one), self.tree.chain(other)) else {
-            for (j, k) in bits(near).flat_map(|j| bits(far).map(move |k| (j, k))) {
-                self.pair((one, j), (other, k))?;
-            }
-            return Ok(());
-        };
-        let (a, b) = (Lines::new(&a), Lines::new(&b));
-        let near = near & a.within_reach(&self.strips[other], &self.powers);
+    /// All pairs of edges of two leaves that hold eight edges of one ring each, with strips.
+    fn chains(
+        &mut self,
+        (one, a): (usize, &[Point; FAN + 1]),
+        (other, b): (usize, &[Point; FAN + 1]),
+    ) -> Result<(), Doubt> {
+        let (a, b) = (Lines::new(a), Lines::new(b));
+        let near = a.within_reach(&self.strips[other], &self.powers);
         if near == 0 {
             return Ok(());
         }
-        let far = far & b.within_reach(&self.strips[one], &self.powers);
+        let far = b.within_reach(&self.strips[one], &self.powers);
+        if far == 0 {
+            return Ok(());
+        }
         for j in bits(near) {
-            if far == 0 {
-                break;
-            }
             for k in bits(far & b.across(a.edge(j), &self.powers)) {
                 self.pair((one, j), (other, k))?;
             }

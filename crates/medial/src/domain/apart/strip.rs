@@ -13,6 +13,8 @@ pub(super) struct Strip {
     along: Point,
     mid: Point,
     half: Point,
+    /// Sum of the sizes of `mid` and `half`.
+    size: f64,
 }
 
 /// Bound on the rounding of a coordinate along or across a strip, as a share of all that is added
@@ -46,8 +48,8 @@ impl Strip {
 
     fn within(origin: Point, along: Point, range: Rect) -> Self {
         let (mid, half) = ((range.min + range.max) * 0.5, (range.max - range.min) * 0.5);
-        let slack = SLACK * (mid.x.abs() + mid.y.abs() + half.x + half.y);
-        Self { origin, along, mid, half: half + Point::new(slack, slack) }
+        let half = half + Point::new(1.0, 1.0) * (SLACK * (norm1(mid) + norm1(half)));
+        Self { origin, along, mid, half, size: norm1(mid) + norm1(half) }
     }
 
     /// A strip around strips, along the longest of them.
@@ -77,20 +79,45 @@ impl Strip {
             cos.abs() * other.half.x + sin.abs() * other.half.y,
             sin.abs() * other.half.x + cos.abs() * other.half.y,
         );
-        let size = |p: Point| p.x.abs() + p.y.abs();
-        let all = size(offset) + size(self.mid) + size(other.mid) + size(other.half);
-        (mid, half, SLACK * all)
+        (mid, half, SLACK * (norm1(offset) + self.size + other.size))
     }
 
     /// Whether one of the four directions of two strips separates them for certain.
     #[inline]
     pub(super) fn misses(&self, other: &Self) -> bool {
-        let beyond = |one: &Self, other: &Self| {
-            let (mid, half, slack) = one.see(other);
-            mid.x.abs() > one.half.x + half.x + slack || mid.y.abs() > one.half.y + half.y + slack
-        };
-        beyond(self, other) || beyond(other, self)
+        let (a, b) = (self, other);
+        let offset = b.origin - a.origin;
+        let (cos, sin) = (a.along.dot(b.along), a.along.cross(b.along));
+        let slack = SLACK * (norm1(offset) + a.size + b.size);
+        let apart = |mid: f64, near: f64, far: f64| mid.abs() > near + far + slack;
+        // Across them first: strips are long.
+        let spread = |half: Point| sin.abs() * half.x + cos.abs() * half.y;
+        if apart(
+            a.along.cross(offset) + sin * b.mid.x + cos * b.mid.y - a.mid.y,
+            a.half.y,
+            spread(b.half),
+        ) || apart(
+            b.along.cross(offset) + sin * a.mid.x - cos * a.mid.y + b.mid.y,
+            b.half.y,
+            spread(a.half),
+        ) {
+            return true;
+        }
+        let spread = |half: Point| cos.abs() * half.x + sin.abs() * half.y;
+        apart(
+            a.along.dot(offset) + cos * b.mid.x - sin * b.mid.y - a.mid.x,
+            a.half.x,
+            spread(b.half),
+        ) || apart(
+            b.along.dot(offset) - cos * a.mid.x - sin * a.mid.y + b.mid.x,
+            b.half.x,
+            spread(a.half),
+        )
     }
+}
+
+fn norm1(p: Point) -> f64 {
+    p.x.abs() + p.y.abs()
 }
 
 /// The vertices of eight consecutive edges in columns, the last one twice: processors like that.

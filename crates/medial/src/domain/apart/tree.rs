@@ -34,8 +34,9 @@ pub(super) struct Tree<'a> {
     pub(super) links: Vec<[u32; 2]>,
     /// Position in `order` of the ring of the first edge of each leaf.
     ranks: Vec<u32>,
-    /// Which items of each leaf are links, or the first edges of their rings, one bit each.
-    heads: Vec<u8>,
+    /// Which items of each leaf are the first edges of their rings, and which are links, one bit
+    /// each.
+    marks: Vec<[u8; 2]>,
     n_items: u32,
 }
 
@@ -54,7 +55,7 @@ impl<'a> Tree<'a> {
             order,
             links,
             ranks: Vec::with_capacity(n_leaves),
-            heads: Vec::with_capacity(n_leaves),
+            marks: Vec::with_capacity(n_leaves),
             n_items: 0,
         };
         tree.add_items();
@@ -87,34 +88,36 @@ impl<'a> Tree<'a> {
                     && let Some(run) = points[at..].first_chunk::<{ FAN + 1 }>()
                 {
                     self.ranks.push(rank);
-                    self.heads.push(u8::from(at == 0));
+                    self.marks.push([u8::from(at == 0), 0]);
                     self.nodes.push(Node::of_run(&map, run));
                     self.n_items += FAN as u32;
                     at += FAN;
                     continue;
                 }
                 let after = points.get(at + 1).copied().unwrap_or(first);
-                self.push(rank, at == 0, Bounds::of(map.point(points[at]), map.point(after)));
+                let bounds = Bounds::of(map.point(points[at]), map.point(after));
+                self.push(rank, [at == 0, false], bounds);
                 at += 1;
             }
             if let Some(&[a, b]) = self.links.get(rank as usize) {
                 let [a, b] = [a, b].map(|k| map.point(rings.point(k)));
-                self.push(rank, true, Bounds::of(a, b));
+                self.push(rank, [false, true], Bounds::of(a, b));
             }
         }
     }
 
-    /// Adds an item; `is_head` if it does not start where the one before it ends.
-    fn push(&mut self, rank: u32, is_head: bool, bounds: Bounds) {
+    /// Adds an item, and whether it is the first edge of its ring, or a link.
+    fn push(&mut self, rank: u32, marks: [bool; 2], bounds: Bounds) {
         let k = self.n_items as usize % FAN;
         if k == 0 {
             self.ranks.push(rank);
-            self.heads.push(0);
+            self.marks.push([0, 0]);
             self.nodes.push(Node::EMPTY);
         }
-        if let (Some(node), Some(heads)) = (self.nodes.last_mut(), self.heads.last_mut()) {
+        if let (Some(node), Some(all)) = (self.nodes.last_mut(), self.marks.last_mut()) {
             node.set(k, bounds);
-            *heads |= u8::from(is_head) << k;
+            all[0] |= u8::from(marks[0]) << k;
+            all[1] |= u8::from(marks[1]) << k;
         }
         self.n_items += 1;
     }
@@ -152,24 +155,24 @@ impl<'a> Tree<'a> {
     /// The items of a leaf that start where the one before them in the tree ends, one bit each.
     #[inline]
     pub(super) fn followers(&self, leaf: usize) -> u32 {
-        u32::from(!self.heads[leaf])
+        let [heads, links] = self.marks[leaf];
+        u32::from(!(heads | links))
     }
 
     /// Item number `k` of a leaf, which must have as many.
     #[inline]
     pub(super) fn item(&self, leaf: usize, k: usize) -> Item {
-        let position = (leaf * FAN + k) as u32;
-        let mut rank = self.ranks[leaf] as usize;
-        while self.starts.get(rank + 1).is_some_and(|&start| start <= position) {
-            rank += 1;
-        }
+        let [heads, links] = self.marks[leaf];
+        // Rings that start after the first item, but not after this one.
+        let started = u32::from(heads & !1) & ((2 << k) - 1);
+        let rank = (self.ranks[leaf] + started.count_ones()) as usize;
         let ring = self.order[rank];
         let Ring { first, len, .. } = self.rings.rings[ring as usize];
-        let along = position - self.starts[rank];
-        if along == len {
+        if links >> k & 1 == 1 {
             let [start, end] = self.links[rank];
             return Item { start, end, ring, link: Some(rank) };
         }
+        let along = (leaf * FAN + k) as u32 - self.starts[rank];
         let next = if along + 1 == len { 0 } else { along + 1 };
         Item { start: first + along, end: first + next, ring, link: None }
     }
