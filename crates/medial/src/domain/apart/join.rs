@@ -189,10 +189,25 @@ impl Join<'_> {
     }
 }
 
+/// Whether any two edges of a ring share a point, but consecutive ones their corner; pair by pair.
+pub(super) fn touches_itself(ring: &[Point]) -> bool {
+    let n = ring.len();
+    let edge = |k: usize| (ring[k], ring[if k + 1 < n { k + 1 } else { 0 }]);
+    (0..n).any(|j| {
+        // The last edge and the first one are consecutive.
+        let end = if j == 0 { n - 1 } else { n };
+        let own = edge(j);
+        (j + 2..end).any(|k| touch(own, edge(k)))
+    })
+}
+
 /// Whether two closed edges share a point.
 #[inline]
 fn touch((a, b): (Point, Point), (c, d): (Point, Point)) -> bool {
-    let apart = |a: f64, b: f64, c: f64, d: f64| a.max(b) < c.min(d) || c.max(d) < a.min(b);
+    // All of one on one side of all of the other.
+    let apart = |a: f64, b: f64, c: f64, d: f64| {
+        a < c && a < d && b < c && b < d || a > c && a > d && b > c && b > d
+    };
     !apart(a.x, b.x, c.x, d.x)
         && !apart(a.y, b.y, c.y, d.y)
         && !one_side((a, b), (c, d))

@@ -53,6 +53,12 @@ enum Around {
 /// Shows that the rings are simple and apart, and how they are nested; `None` if that is not so,
 /// or takes too long. The rings are best in an order in which near ones follow one another.
 pub(super) fn apart(rings: &Rings, order: &[u32]) -> Option<Nesting> {
+    if let [_] = rings.rings[..]
+        && rings.points.len() <= FEW_EDGES
+    {
+        let around = vec![Around::Nothing];
+        return (!join::touches_itself(&rings.points)).then_some(Nesting { around });
+    }
     let tree = Tree::new(rings, order);
     let mut proof = Err(Doubt::Costly);
     if !spreads(&tree) {
@@ -61,9 +67,16 @@ pub(super) fn apart(rings: &Rings, order: &[u32]) -> Option<Nesting> {
     if proof == Err(Doubt::Costly) {
         proof = join(&tree, &strip::strips(&tree));
     }
-    let around = below::all(&tree, &proof.ok()?)?;
+    let broken = proof.ok()?;
+    let around = match rings.rings[..] {
+        [_] => vec![Around::Nothing],
+        _ => below::all(&tree, &broken)?,
+    };
     Some(Nesting { around })
 }
+
+/// Edges of a ring that are not worth a tree.
+const FEW_EDGES: usize = 16;
 
 /// Whether the leaves' boxes overlap so much that a join by boxes is hopeless.
 fn spreads(tree: &Tree) -> bool {
