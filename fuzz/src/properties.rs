@@ -123,8 +123,8 @@ fn domain_faults(domain: &Domain, polygons: &Polygons) -> Option<String> {
         if !corner || edge.start == after || edge.length <= 0.0 || (length - 1.0).abs() > 1e-15 {
             return Some(format!("edge {k} from {:?} to {after:?}: {edge:?}", edge.start));
         }
-        if orient2d(edge.start, after, domain.edge(edge.line).start) != 0.0 {
-            return Some(format!("edge {k} is not on the line of {}", edge.line));
+        if orient2d(edge.start, after, domain.edge(domain.line(k)).start) != 0.0 {
+            return Some(format!("edge {k} is not on the line of {}", domain.line(k)));
         }
         let origin = domain.origin(k);
         let given = |ring: u32, index: u32| {

@@ -34,14 +34,17 @@ const SCALE: f64 = f64::from_bits((1023 - 504) << 52);
 
 /// The exact sign of the area: `Greater` for a counterclockwise ring.
 pub(super) fn orientation(points: &[Point]) -> Ordering {
-    let Some(&origin) = points.first() else { return Ordering::Equal };
+    let Some((&origin, rest)) = points.split_first() else { return Ordering::Equal };
     let (mut sum, mut size) = (0.0, 0.0);
-    for_edges(points.iter().copied(), |a, b| {
-        let (a, b) = (a - origin, b - origin);
-        let (left, right) = (a.x * b.y, a.y * b.x);
+    // Terms at the origin are 0.
+    let mut before = Point::default();
+    for &point in rest {
+        let at = point - origin;
+        let (left, right) = (before.x * at.y, before.y * at.x);
         sum += left - right;
         size += left.abs() + right.abs();
-    });
+        before = at;
+    }
     // Each term has a relative error below 4 roundings of its size, and n additions follow.
     let bound = (points.len() as f64 + 8.0) * f64::EPSILON * size;
     if sum > bound {

@@ -1,24 +1,15 @@
 //! Boundary walks from rings and what the sweep found where they touch.
 
+use super::origins::Source;
+use super::outlines::{Outline, Outlines, ring_source};
 use super::rings::Rings;
 use super::sweep::{Arrangement, Piece};
-use super::{CornerOrigin, DomainError, Origin};
-use crate::geom::Point;
-
-/// Walks, one after another: where each edge starts, and what it comes from.
-#[derive(Default)]
-pub(super) struct Walks {
-    pub(super) starts: Vec<Point>,
-    pub(super) origins: Vec<Origin>,
-    /// Edge of the cleaned rings that each edge is a piece of.
-    pub(super) sources: Vec<u32>,
-    /// Number of edges of each walk.
-    pub(super) lens: Vec<u32>,
-}
+use super::{Corner, CornerOrigin, DomainError, Origin};
+use crate::geom::{Point, orient2d};
 
 /// Follows links from piece to piece; walks are ordered by, and start at, their edge with the
 /// smallest polygon, ring, index and part.
-pub(super) fn assemble(rings: &Rings, found: &Arrangement) -> Result<Walks, DomainError> {
+pub(super) fn assemble(rings: &Rings, found: &Arrangement) -> Result<Outlines, DomainError> {
     let pieces = Pieces::new(rings, found);
     let n = pieces.len();
     let mut next: Vec<u32> = (0..n).map(|k| pieces.next_in_ring(k)).collect();
@@ -29,22 +20,22 @@ pub(super) fn assemble(rings: &Rings, found: &Arrangement) -> Result<Walks, Doma
     for &(into, out) in &found.links {
         next[pieces.id(into) as usize] = pieces.id(out);
     }
-    let mut walks = Walks::default();
-    walks.sources.reserve(n as usize);
-    walks.starts.reserve(n as usize);
-    walks.origins.reserve(n as usize);
+    let (mut points, mut corners) =
+        (Vec::with_capacity(n as usize), Vec::with_capacity(n as usize));
+    let (mut list, mut given, mut records) = (Vec::new(), Vec::new(), Vec::new());
     for first in pieces.in_input_order() {
         if done[first as usize] {
             continue;
         }
-        let before = walks.starts.len();
+        let (start, record) = (points.len(), records.len());
+        let ring = rings.ring_of(pieces.edge(first));
         let mut k = first;
+        let mut whole = true;
         loop {
             done[k as usize] = true;
             let follower = next[k as usize];
-            walks.starts.push(pieces.start(k));
-            walks.origins.push(pieces.origin(k));
-            walks.sources.push(pieces.edge(k));
+            whole &= follower == pieces.next_in_ring(k) && pieces.touches(pieces.edge(k)) == 0;
+            points.push(pieces.start(k));
             if follower == first {
                 break;
             }
@@ -53,17 +44,51 @@ pub(super) fn assemble(rings: &Rings, found: &Arrangement) -> Result<Walks, Doma
             }
             k = follower;
         }
-        let walk = &mut walks.origins[before..];
-        // Each corner is named by the piece that arrives there.
-        let mut into = k;
-        let mut at = first;
-        for origin in walk {
-            origin.corner = pieces.end_name(into);
-            (into, at) = (at, next[at as usize]);
-        }
-        walks.lens.push((walks.starts.len() - before) as u32);
+        let walk = &points[start..];
+        append_corners(walk, &mut corners);
+        let source = if whole {
+            ring_source(rings, ring, &mut given)
+        } else {
+            // Each corner is named by the piece that arrives there.
+            let (mut into, mut at) = (k, first);
+            records.extend(walk.iter().map(|_| {
+                let origin = Origin { corner: pieces.end_name(into), ..pieces.origin(at) };
+                (into, at) = (at, next[at as usize]);
+                origin
+            }));
+            Source::Pieces { first: record as u32 }
+        };
+        list.push(Outline {
+            first: start as u32,
+            len: walk.len() as u32,
+            start: 0,
+            polygon: ring.polygon,
+            hole: surrounds_a_hole(walk, &corners[start..]),
+            source,
+        });
     }
-    Ok(walks)
+    Ok(Outlines { points, corners, list, given, records })
+}
+
+fn append_corners(walk: &[Point], corners: &mut Vec<Corner>) {
+    let n = walk.len();
+    corners.extend((0..n).map(|k| {
+        let turn = orient2d(walk[(k + n - 1) % n], walk[k], walk[(k + 1) % n]);
+        if turn > 0.0 {
+            Corner::Convex
+        } else if turn < 0.0 {
+            Corner::Reflex
+        } else {
+            Corner::Straight
+        }
+    }));
+}
+
+/// Whether a walk surrounds a hole: an outer walk turns left wherever it passes its first point in
+/// lexicographic order, and one around a hole turns right there once.
+fn surrounds_a_hole(walk: &[Point], corners: &[Corner]) -> bool {
+    let lowest = walk.iter().copied().min_by(|a, b| a.lexicographic(*b));
+    walk.iter().zip(corners).any(|(p, &c)| Some(*p) == lowest && c == Corner::Reflex)
 }
 
 /// All edges of the rings, cut where corners touch them, numbered in boundary order.
@@ -168,7 +193,7 @@ impl<'a, 'b> Pieces<'a, 'b> {
         let touches = self.touches(edge);
         let along = piece - self.first(edge);
         if along == touches {
-            let index = self.rings.given[self.rings.next(edge) as usize];
+            let index = self.rings.given(self.rings.next(edge));
             return CornerOrigin { ring: ring.index, index, part: 0 };
         }
         let part = if ring.reversed { touches - along } else { along + 1 };

@@ -1,7 +1,9 @@
+use super::apart::{Nesting, apart};
 use super::assemble::assemble;
-use super::lines::supporting_lines;
-use super::nesting;
+use super::nesting::regroup;
+use super::outlines::Outlines;
 use super::rings::Rings;
+use super::status::NONE;
 use super::sweep::{Arrangement, Purpose, sweep};
 use super::{Domain, DomainError, Place, Repair, Report};
 use crate::geom::Point;
@@ -43,27 +45,75 @@ impl Domain {
     ) -> Result<Self, DomainError> {
         let mut report = Report::default();
         let mut rings = Rings::clean(polygons, options, &mut report)?;
+        let order = rings.order();
+        let nesting = apart(&rings, &order);
         if options.regroup {
-            nesting::regroup(&mut rings, &mut report)?;
+            let parents = match &nesting {
+                Some(nesting) => nesting.parents(),
+                None => {
+                    rings.number();
+                    sweep(&rings, Purpose::Nest)?.parents
+                }
+            };
+            regroup(&mut rings, &parents, &mut report);
         }
+        match nesting {
+            Some(nesting) if nesting.sides_agree(&rings) => {
+                let order = (rings.lone && !options.regroup).then_some(order);
+                Self::of_rings(rings, &nesting, order, report)
+            }
+            _ => Self::of_touching_rings(rings, polygons.len(), options, report),
+        }
+    }
+
+    /// The domain bounded by rings that are simple, apart from one another, and well nested.
+    pub(super) fn of_rings(
+        rings: Rings,
+        nesting: &Nesting,
+        order: Option<Vec<u32>>,
+        report: Report,
+    ) -> Result<Self, DomainError> {
+        let outlines = Outlines::of_rings(rings);
+        let order = order.unwrap_or_else(|| outlines.order());
+        let mut domain = outlines.into_domain(&order, report);
+        domain.number_components(|_| {
+            let mut places = vec![NONE; order.len()];
+            for (new, &old) in (0..).zip(&order) {
+                places[old as usize] = new;
+            }
+            let parents = nesting.parents();
+            let place =
+                |&ring: &u32| places.get(parents[ring as usize] as usize).copied().unwrap_or(NONE);
+            Ok(order.iter().map(place).collect())
+        })?;
+        Ok(domain)
+    }
+
+    /// The domain bounded by any rings, if there is one.
+    pub(super) fn of_touching_rings(
+        mut rings: Rings,
+        polygons: usize,
+        options: &Options,
+        mut report: Report,
+    ) -> Result<Self, DomainError> {
+        rings.number();
         let found = sweep(&rings, Purpose::Validate)?;
         let refusal = found.bridge.or(found.self_touch).or(found.shared_edge);
         if let (true, Some(error)) = (options.strict, refusal) {
             return Err(error);
         }
         note_touches(&rings, &found, &mut report);
-        let walks = assemble(&rings, &found)?;
-        let edges: Vec<_> = (0..rings.points.len() as u32)
-            .map(|edge| (rings.point(edge), rings.point(rings.next(edge))))
-            .collect();
-        let mut domain =
-            Self::from_walks(walks, &supporting_lines(&edges), report).with_holes_along_a_curve();
-        let mut outer = vec![0; polygons.len()];
+        let outlines = assemble(&rings, &found)?;
+        let mut outer = vec![0; polygons];
         for ring in rings.rings.iter().filter(|ring| !ring.hole) {
             outer[ring.polygon as usize] += 1;
         }
-        for (polygon, parts) in (0..).zip(domain.parts(polygons.len())) {
-            let at = Place { polygon, ring: 0, index: 0, lone: rings.lone };
+        let lone = rings.lone;
+        drop((rings, found));
+        let order = outlines.order();
+        let mut domain = outlines.into_domain(&order, report);
+        for (polygon, parts) in (0..).zip(domain.parts(polygons)) {
+            let at = Place { polygon, ring: 0, index: 0, lone };
             if parts == 0 && outer[polygon as usize] > 0 {
                 return Err(DomainError::Empty { at });
             } else if parts > outer[polygon as usize] {
@@ -73,7 +123,9 @@ impl Domain {
                 domain.report.push(Repair::CutInterior, polygon, 0, Vec::new());
             }
         }
-        domain.number_components()?;
+        domain.number_components(|domain| {
+            Ok(sweep(&Rings::of_walks(domain), Purpose::Validate)?.parents)
+        })?;
         Ok(domain)
     }
 }

@@ -1,13 +1,15 @@
 //! Which walks bound the same connected component of the interior.
 
-use super::rings::Rings;
 use super::status::NONE;
-use super::sweep::{Purpose, sweep};
 use super::{Domain, DomainError};
 
 impl Domain {
-    /// Numbers the components in the walks.
-    pub(super) fn number_components(&mut self) -> Result<(), DomainError> {
+    /// Numbers the components in the walks; `parents` gives the walk right around each walk, if it
+    /// is needed.
+    pub(super) fn number_components(
+        &mut self,
+        parents: impl FnOnce(&Self) -> Result<Vec<u32>, DomainError>,
+    ) -> Result<(), DomainError> {
         let polygons = self.walks.iter().map(|w| w.polygon as usize + 1).max().unwrap_or(0);
         // The last component of each polygon, and whether that is its only one.
         let mut last = vec![(NONE, true); polygons];
@@ -26,8 +28,7 @@ impl Domain {
             return Ok(());
         }
         // What lies right around a hole of a valid domain is an outer walk.
-        let parents = sweep(&Rings::of_walks(self), Purpose::Validate)?.parents;
-        for (walk, parent) in parents.into_iter().enumerate() {
+        for (walk, parent) in parents(self)?.into_iter().enumerate() {
             if self.walks[walk].hole {
                 self.walks[walk].component = match self.walks.get(parent as usize) {
                     Some(parent) if !parent.hole => parent.component,

@@ -1,10 +1,11 @@
 //! The shape: rings of doubles, validated once, as boundary walks with the interior on the left.
 //!
-//! `rings` cleans and directs each ring by itself; `sweep` and `junction` find how edges meet;
-//! `nesting` tells outer rings from holes if asked to; `assemble` links what is left into walks,
-//! which `walks` turns into a [`Domain`]. What was changed is in the [`Report`], and why a feature
-//! is refused in the [`DomainError`].
+//! `rings` cleans and directs each ring by itself; `apart` shows that no edges meet, as is usual;
+//! else `sweep` and `junction` find how they meet, and `assemble` links what is left into walks.
+//! `nesting` tells outer rings from holes if asked to. `outlines` turns walks into a [`Domain`].
+//! What was changed is in the [`Report`], and why a feature is refused in the [`DomainError`].
 
+mod apart;
 mod area;
 mod assemble;
 mod build;
@@ -16,6 +17,9 @@ mod junction;
 mod lines;
 mod nesting;
 mod order;
+mod origins;
+mod outlines;
+mod reduce;
 mod report;
 mod rings;
 mod sites;
@@ -26,5 +30,6 @@ mod walks;
 
 pub use build::Options;
 pub use error::{DomainError, NestingFault, Place};
+pub use origins::{CornerOrigin, Origin};
 pub use report::{Entry, Repair, Report};
-pub use walks::{Corner, CornerOrigin, Domain, Edge, Origin, Site, Walk};
+pub use walks::{Corner, Domain, Edge, Site, Walk};

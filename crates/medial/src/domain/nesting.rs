@@ -2,13 +2,12 @@
 
 use super::rings::Rings;
 use super::status::NONE;
-use super::sweep::{Purpose, sweep};
-use super::{DomainError, Repair, Report};
+use super::{Repair, Report};
 
-/// Makes each ring an outer ring or a hole by the number of rings of its polygon around it.
-pub(super) fn regroup(rings: &mut Rings, report: &mut Report) -> Result<(), DomainError> {
-    let parents = sweep(rings, Purpose::Nest)?.parents;
-    for (ring, hole) in odd_depths(rings, &parents).into_iter().enumerate() {
+/// Makes each ring an outer ring or a hole by the number of rings of its polygon around it, given
+/// the smallest ring around each.
+pub(super) fn regroup(rings: &mut Rings, parents: &[u32], report: &mut Report) {
+    for (ring, hole) in odd_depths(rings, parents).into_iter().enumerate() {
         if hole {
             rings.reverse(ring);
             rings.rings[ring].hole = true;
@@ -22,7 +21,6 @@ pub(super) fn regroup(rings: &mut Rings, report: &mut Report) -> Result<(), Doma
             note(Repair::Reversed);
         }
     }
-    Ok(())
 }
 
 /// Whether an odd number of rings of the same polygon is around each ring.

@@ -1,72 +1,66 @@
 //! The order of the holes: near ones follow one another.
 
-use super::{Domain, Edge, Walk};
-use crate::geom::{Rect, hilbert};
+use super::outlines::Outlines;
+use super::rings::Rings;
+use crate::geom::{Point, Rect, hilbert};
 
-impl Domain {
-    /// The same domain with the holes of each polygon along a Hilbert curve, in the places where
-    /// its holes were.
+/// Rings that are not worth sorting for themselves.
+const FEW_RINGS: usize = 8;
+
+impl Outlines {
+    /// The numbers of the walks, with the holes of each polygon along a Hilbert curve in the places
+    /// where its holes are.
     ///
     /// Indices over edges in boundary order are then good whatever the order of the input.
-    pub(super) fn with_holes_along_a_curve(self) -> Self {
-        let order = self.walk_order();
-        let Self { edges, origins, walks, report } = self;
-        let mut first = vec![0; walks.len()];
-        let mut number = vec![0; walks.len()];
-        let mut sorted: Vec<Walk> = Vec::with_capacity(walks.len());
-        let mut next = 0;
-        for (new, &old) in order.iter().enumerate() {
-            first[old] = next;
-            number[old] = new as u32;
-            sorted.push(Walk { first: next, ..walks[old] });
-            next += walks[old].len;
-        }
-        let moved = |edge: u32| {
-            let walk = edges[edge as usize].walk as usize;
-            edge - walks[walk].first + first[walk]
+    pub(super) fn order(&self) -> Vec<u32> {
+        let corner = |walk: u32| {
+            let outline = &self.list[walk as usize];
+            self.points[(outline.first + outline.start) as usize]
         };
-        // The number of a line is that of its first edge.
-        let mut least = vec![u32::MAX; edges.len()];
-        for (old, edge) in (0..).zip(&edges) {
-            let line = &mut least[edge.line as usize];
-            *line = (*line).min(moved(old));
-        }
-        let old_edges =
-            || order.iter().flat_map(|&w| walks[w].first..walks[w].first + walks[w].len);
-        let sorted_edges = old_edges().map(|old| {
-            let edge = edges[old as usize];
-            Edge {
-                next: moved(edge.next),
-                prev: moved(edge.prev),
-                walk: number[edge.walk as usize],
-                line: least[edge.line as usize],
-                ..edge
-            }
-        });
-        Self {
-            edges: sorted_edges.collect(),
-            origins: old_edges().map(|old| origins[old as usize]).collect(),
-            walks: sorted,
-            report,
-        }
+        let polygon = |walk: u32| self.list[walk as usize].polygon;
+        let hole = |walk: u32| self.list[walk as usize].hole;
+        holes_along_a_curve(self.list.len(), polygon, hole, corner)
     }
+}
 
-    /// The old numbers of the walks in their new order.
-    fn walk_order(&self) -> Vec<usize> {
-        let corner = |walk: usize| self.edge(self.walks[walk].first).start;
-        let holes: Vec<usize> = (0..self.walks.len()).filter(|&w| self.walks[w].hole).collect();
-        let bounds = holes.iter().fold(Rect::EMPTY, |all, &w| all.with(corner(w)));
-        let mut sorted = holes.clone();
-        // Equal keys keep their order.
-        sorted.sort_by_cached_key(|&w| (self.walks[w].polygon, hilbert(&bounds, corner(w))));
-        let mut places = holes;
-        places.sort_by_key(|&w| self.walks[w].polygon);
-        let mut order: Vec<usize> = (0..self.walks.len()).collect();
-        for (place, walk) in places.into_iter().zip(sorted) {
-            order[place] = walk;
+impl Rings<'_> {
+    /// The rings in an order in which near ones follow one another: that of the walks they make, if
+    /// they touch nowhere and there is one polygon; else along a curve all of them.
+    pub(super) fn order(&self) -> Vec<u32> {
+        let ring = |ring: u32| &self.rings[ring as usize];
+        if self.lone {
+            let corner = |number| self.point(ring(number).first + ring(number).start());
+            return holes_along_a_curve(self.rings.len(), |_| 0, |r| ring(r).index > 0, corner);
         }
-        order
+        let polygon = |number: u32| u32::from(self.rings.len() <= FEW_RINGS) * number;
+        let corner = |number| self.point(ring(number).first);
+        holes_along_a_curve(self.rings.len(), polygon, |_| true, corner)
     }
+}
+
+/// The numbers 0 to `n - 1`, with the holes of each polygon along a Hilbert curve in the places
+/// where its holes are.
+fn holes_along_a_curve(
+    n: usize,
+    polygon: impl Fn(u32) -> u32,
+    hole: impl Fn(u32) -> bool,
+    corner: impl Fn(u32) -> Point,
+) -> Vec<u32> {
+    let mut order: Vec<u32> = (0..n as u32).collect();
+    let mut places: Vec<u32> = order.iter().copied().filter(|&w| hole(w)).collect();
+    if places.len() < 2 {
+        return order;
+    }
+    let bounds = places.iter().fold(Rect::EMPTY, |all, &w| all.with(corner(w)));
+    // Equal keys keep their order. A position on the curve has 32 bits.
+    let key = |&w: &u32| (polygon(w), hilbert(&bounds, corner(w)) << 32 | u64::from(w));
+    let mut sorted: Vec<_> = places.iter().map(key).collect();
+    sorted.sort_unstable();
+    places.sort_by_key(|&w| polygon(w));
+    for (place, (_, key)) in places.into_iter().zip(sorted) {
+        order[place as usize] = key as u32;
+    }
+    order
 }
 
 #[cfg(test)]
@@ -119,8 +113,8 @@ mod tests {
                 let ring = d.origin(edge).ring;
                 assert_eq!(ring == 0, !walk.hole);
                 // The line of an edge is named by its first edge.
-                let line = d.edge(edge).line;
-                assert!(line <= edge && d.edge(line).line == line);
+                let line = d.line(edge);
+                assert!(line <= edge && d.line(line) == line);
                 let Point { x, y } = d.edge(edge).start;
                 let end = d.end(edge);
                 let on = |p: Point| (x == end.x && p.x == x) || (y == end.y && p.y == y);

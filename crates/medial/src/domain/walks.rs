@@ -1,8 +1,10 @@
+use std::sync::OnceLock;
+
 use super::Report;
 use super::area::twice_area;
-use super::assemble::Walks;
-use super::unit::unit_vector;
-use crate::geom::{Double, Point, orient2d};
+use super::lines::supporting_lines;
+use super::origins::Origins;
+use crate::geom::{Double, Point};
 
 /// A boundary element by its number: an open edge, or the corner at the start of an edge.
 ///
@@ -53,44 +55,16 @@ pub enum Corner {
     Straight,
 }
 
-/// Where an edge, and the corner at its start, come from in the input.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct Origin {
-    /// Polygon of the feature, from 0.
-    pub polygon: u32,
-    /// Ring of the polygon, from 0; 0 is the outer ring.
-    pub ring: u32,
-    /// Position in the ring as given (before any reversal) of the edge's first vertex in input
-    /// order; a merged edge counts from the vertex where it begins in input direction.
-    pub index: u32,
-    /// Piece of an edge split by touching corners, counted in input direction; 0 if unsplit.
-    pub part: u32,
-    /// Name of the corner at the start of the edge.
-    pub corner: CornerOrigin,
-}
-
-/// Where a corner comes from: a wedge between two rings is named by the ring of its incoming edge.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct CornerOrigin {
-    /// Ring of the incoming edge.
-    pub ring: u32,
-    /// Position of the corner in that ring as given; where the ring has no vertex there because
-    /// another one touches its edge, the index of that edge.
-    pub index: u32,
-    /// 0, or, where another ring touches an edge of this one, which touch it is along that edge,
-    /// counted from 1 in input direction.
-    pub part: u32,
-}
-
-/// An edge of the boundary, directed so that the interior lies to its left. 64 bytes.
+/// An edge of the boundary, directed so that the interior lies to its left. 56 bytes.
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct Edge {
     /// Where the edge starts; it ends where the next one starts.
     pub start: Point,
-    /// Unit vector from start to end, rounded; exact for axis-parallel edges.
+    /// Unit vector from start to end: each coordinate within 3 · 2^-53 of the true one, as a share
+    /// of it; exact for axis-parallel edges.
     pub direction: Point,
-    /// Length, rounded.
+    /// Length, within 2 · 2^-53 of the true one, as a share of it.
     pub length: f64,
     /// The next edge along the boundary.
     pub next: u32,
@@ -98,8 +72,6 @@ pub struct Edge {
     pub prev: u32,
     /// The walk the edge belongs to.
     pub walk: u32,
-    /// Edges on one supporting line, whatever their direction, share this number.
-    pub line: u32,
     /// The corner at the start.
     pub corner: Corner,
 }
@@ -126,50 +98,14 @@ pub struct Walk {
 pub struct Domain {
     /// Walk by walk, in boundary order.
     pub(super) edges: Vec<Edge>,
-    pub(super) origins: Vec<Origin>,
     pub(super) walks: Vec<Walk>,
+    pub(super) origins: Origins,
     pub(super) report: Report,
+    /// Supporting lines, once somebody asks.
+    pub(super) lines: OnceLock<Vec<u32>>,
 }
 
 impl Domain {
-    /// Builds the records from closed walks, which are valid: simple up to touching, directed,
-    /// without spikes. `lines` gives the supporting line of each source edge.
-    pub(super) fn from_walks(walks: Walks, lines: &[u32], report: Report) -> Self {
-        let n = walks.starts.len();
-        let mut edges: Vec<Edge> = Vec::with_capacity(n);
-        let mut records = Vec::with_capacity(walks.lens.len());
-        let mut least_on_line = vec![u32::MAX; lines.len()];
-        let mut first = 0;
-        for (id, &len) in walks.lens.iter().enumerate() {
-            let points = &walks.starts[first as usize..(first + len) as usize];
-            let at = |k: u32| points[(if k < len { k } else { k - len }) as usize];
-            for k in 0..len {
-                let (start, end) = (at(k), at(k + 1));
-                let (direction, length) = unit_vector(start, end);
-                let edge = first + k;
-                let line = lines[walks.sources[edge as usize] as usize] as usize;
-                // Numbers rise, so the first one met is the least.
-                least_on_line[line] = least_on_line[line].min(edge);
-                edges.push(Edge {
-                    start,
-                    direction,
-                    length,
-                    next: if k + 1 < len { edge + 1 } else { first },
-                    prev: if k > 0 { edge - 1 } else { first + len - 1 },
-                    walk: id as u32,
-                    line: least_on_line[line],
-                    corner: turn(at(k + len - 1), start, end),
-                });
-            }
-            let walk = &edges[first as usize..];
-            let polygon = walks.origins[first as usize].polygon;
-            let hole = surrounds_a_hole(walk);
-            records.push(Walk { first, len, hole, polygon, component: 0 });
-            first += len;
-        }
-        Self { edges, origins: walks.origins, walks: records, report }
-    }
-
     /// All edges, walk by walk in boundary order.
     #[inline]
     #[must_use]
@@ -184,13 +120,6 @@ impl Domain {
         &self.walks
     }
 
-    /// Where edge number `edge` and the corner at its start come from.
-    #[inline]
-    #[must_use]
-    pub fn origin(&self, edge: u32) -> Origin {
-        self.origins[edge as usize]
-    }
-
     /// Record of edge number `edge`.
     #[inline]
     #[must_use]
@@ -203,6 +132,23 @@ impl Domain {
     #[must_use]
     pub fn end(&self, edge: u32) -> Point {
         self.edges[self.edges[edge as usize].next as usize].start
+    }
+
+    /// The least edge on the supporting line of edge number `edge`: edges on one line, whatever
+    /// their direction, share this number.
+    ///
+    /// The first call sorts all edges by their lines, in O(n log n).
+    #[must_use]
+    pub fn line(&self, edge: u32) -> u32 {
+        self.lines()[edge as usize]
+    }
+
+    /// The numbers that [`line`](Self::line) gives, of all edges.
+    pub fn lines(&self) -> &[u32] {
+        self.lines.get_or_init(|| {
+            let ends = (0..self.edges.len() as u32).map(|k| (self.edge(k).start, self.end(k)));
+            supporting_lines(&ends.collect::<Vec<_>>())
+        })
     }
 
     /// What was changed to make the input valid.
@@ -245,23 +191,5 @@ impl Domain {
         let edges = &self.edges[first as usize..(first + len) as usize];
         let points: Vec<Point> = edges.iter().map(|e| e.start).collect();
         twice_area(&points)
-    }
-}
-
-/// Whether a walk surrounds a hole: an outer walk turns left wherever it passes its first point in
-/// lexicographic order, and one around a hole turns right there once.
-fn surrounds_a_hole(walk: &[Edge]) -> bool {
-    let lowest = walk.iter().map(|e| e.start).min_by(|a, b| a.lexicographic(*b));
-    walk.iter().any(|e| Some(e.start) == lowest && e.corner == Corner::Reflex)
-}
-
-fn turn(before: Point, at: Point, after: Point) -> Corner {
-    let sign = orient2d(before, at, after);
-    if sign > 0.0 {
-        Corner::Convex
-    } else if sign < 0.0 {
-        Corner::Reflex
-    } else {
-        Corner::Straight
     }
 }

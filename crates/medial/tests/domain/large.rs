@@ -84,6 +84,6 @@ fn an_edge_may_be_touched_by_many_holes() {
     let domain = Domain::from_polygons(&[rings], &Options::default()).expect("valid");
     assert_eq!(domain.edges().len(), 4 + 4 * holes as usize);
     assert_eq!(domain.walks().len(), 1);
-    let last = domain.edges().iter().filter(|e| e.line == domain.edge(0).line).count();
+    let last = domain.lines().iter().filter(|&&line| line == domain.line(0)).count();
     assert_eq!(last, 1 + holes as usize);
 }
