@@ -23,7 +23,7 @@ use std::cmp::Ordering;
 use super::contacts::follows;
 use super::front::Front;
 use super::rings::{Link, Round};
-use super::search::{Found, Gap, Proposal, Search, Start, contact_behind};
+use super::search::{Found, Gap, Proposal, SLACK, Search, Start, contact_behind};
 use super::verify::{Verdict, Verify, cuts_clearly};
 use crate::domain::{Corner, Edge, Site};
 use crate::geom::{Point, TouchingDisk, Unsure};
@@ -209,10 +209,20 @@ impl Search<'_> {
         Ok(disk.map(|disk| Event::Leave { disk, site: normal.site }))
     }
 
-    /// The disk that meets the edge beyond a convex corner, if it lies ahead.
-    fn meet(&mut self, gap: &Gap, edge: u32) -> Option<Event> {
+    /// A proposal for the disk that meets the edge beyond a convex corner at an end of the right
+    /// governor, or of the left one, if it lies ahead.
+    fn meet(&mut self, gap: &Gap, edge: u32, on_right: bool) -> Option<Event> {
+        let beyond = self.domain.edge(edge);
+        let (v, incoming, outgoing, other) = if on_right {
+            let before = self.domain.edge(gap.right.index());
+            (beyond.start, before.direction, beyond.direction, gap.left)
+        } else {
+            let after = self.domain.edge(gap.left.index());
+            (after.start, beyond.direction, after.direction, gap.right)
+        };
         let site = Site::edge(edge);
-        let disk = TouchingDisk::touching(&gap.triple(site).map(|s| self.domain.governor(s)))?;
+        let other = self.domain.governor(other);
+        let disk = TouchingDisk::in_corner(v, incoming, outgoing, &other)?;
         let ahead = gap.course(self.domain).position(&disk) > 0.0;
         if !ahead {
             self.behind.push(edge);
@@ -229,12 +239,14 @@ impl Search<'_> {
         disk: &TouchingDisk,
         side: f64,
     ) -> Result<Reach, Unsure> {
+        // A proposal will be looked into, so its order needs no proof.
+        let bound = if disk.bound.is_finite() { disk.bound } else { SLACK * disk.radius };
         let along = |edge: &Edge, p: Point| {
             let a = p - disk.origin;
             let q = disk.centre - a;
             let x = edge.direction.dot(q);
             let size = 16.0 * (q.x.abs() + q.y.abs()) + a.x.abs() + a.y.abs() + 2.0 * disk.radius;
-            (side * x, disk.bound + U * size)
+            (side * x, bound + U * size)
         };
         let (x, doubt) = along(self.domain.edge(normal.edge), normal.at);
         if x > doubt {
@@ -267,7 +279,8 @@ impl Search<'_> {
         let to = disk.centre + (disk.origin - corner);
         let turn = side * from.cross(to);
         let sizes = (from.x.abs() + from.y.abs(), to.x.abs() + to.y.abs());
-        let doubt = gap.start.doubt + disk.bound + 8.0 * U * (sizes.0 + sizes.1);
+        let bound = if disk.bound.is_finite() { disk.bound } else { SLACK * disk.radius };
+        let doubt = gap.start.doubt + bound + 8.0 * U * (sizes.0 + sizes.1);
         let doubt = 2.0 * doubt * (sizes.0 + sizes.1);
         turn < -doubt || turn <= doubt && from.dot(to) > 0.0
     }
@@ -280,7 +293,7 @@ impl Search<'_> {
         let endings = self.ending_right(r).zip(self.ending_left(l)).ok_or(Unsure)?;
         let (edge, normal, other, side) = match endings {
             (Ending::Turn { edge: e }, Ending::Turn { edge: f }) => {
-                let (a, b) = (self.meet(gap, e), self.meet(gap, f));
+                let (a, b) = (self.meet(gap, e, true), self.meet(gap, f, false));
                 let position = |e: &Event| gap.course(self.domain).position(e.disk());
                 return Ok(match (a, b) {
                     (Some(a), Some(b)) => Some(if position(&b) < position(&a) { b } else { a }),
@@ -293,7 +306,7 @@ impl Search<'_> {
             (Ending::Turn { edge }, Ending::Normal(normal)) => (edge, normal, r, -1.0),
             (Ending::Normal(normal), Ending::Turn { edge }) => (edge, normal, l, 1.0),
         };
-        let Some(meet) = self.meet(gap, edge) else { return self.leave(normal, other) };
+        let Some(meet) = self.meet(gap, edge, side < 0.0) else { return self.leave(normal, other) };
         Ok(match self.reach(gap, normal, meet.disk(), side)? {
             Reach::Past => Some(self.leave(normal, other)?.ok_or(Unsure)?),
             Reach::Within | Reach::Level => Some(meet),
@@ -357,7 +370,7 @@ impl Search<'_> {
     /// The disk of two runs of two sites that face each other: the same from either side.
     fn facing(&self, one: &[Site; 2], other: &[Site; 2]) -> Option<TouchingDisk> {
         let (run, third) = if one[0] < other[0] { (one, other[0]) } else { (other, one[0]) };
-        let governors = [run[0], run[1], third].map(|s| self.domain.governor(s));
+        let governors = self.domain.governors([run[0], run[1], third]);
         TouchingDisk::touching(&governors)
     }
 
@@ -415,7 +428,7 @@ impl Search<'_> {
             let disk = if end.disk.bound.is_finite() {
                 end.disk
             } else {
-                let governors = triple.map(|s| self.domain.governor(s));
+                let governors = self.domain.governors(triple);
                 match TouchingDisk::touching(&governors) {
                     Some(d) => d,
                     None => {
@@ -451,7 +464,8 @@ impl Search<'_> {
                             return None;
                         }
                     }
-                    return Some(Found::Disk { disk, triple, contacts });
+                    let fixed = contacts.len() == 3;
+                    return Some(Found::Disk { disk, triple, contacts, fixed });
                 }
                 Verdict::OffEdge => {
                     self.banned.push(end.site);

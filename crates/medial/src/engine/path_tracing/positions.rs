@@ -43,7 +43,7 @@ pub(super) fn position(
     doubt: f64,
 ) -> Option<(Point, f64)> {
     let triple = best_triple(domain, list, centre).unwrap_or(*known);
-    let governors = triple.map(|s| domain.governor(s));
+    let governors = domain.governors(triple);
     // Far from the start there may be another disk of the same three elements.
     let same = |&(c, r): &(Point, f64)| {
         (c - centre).norm() + (r - radius).abs() <= 4.0 * doubt && doubt <= r / FAR_APART

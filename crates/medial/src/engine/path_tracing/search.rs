@@ -47,8 +47,8 @@ pub(super) enum Found {
     /// In the convex corner at the start of this edge.
     Corner(u32),
     /// At a keypoint: its disk, three sites that define it, and all its governors in
-    /// counterclockwise order.
-    Disk { disk: TouchingDisk, triple: [Site; 3], contacts: Contacts },
+    /// counterclockwise order; whether the disk is fixed by them, and not by the way it was found.
+    Disk { disk: TouchingDisk, triple: [Site; 3], contacts: Contacts, fixed: bool },
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -201,7 +201,7 @@ impl<'a> Search<'a> {
         if !self.may_be_third(gap, site) {
             return None;
         }
-        let governors = gap.triple(site).map(|s| self.domain.governor(s));
+        let governors = self.domain.governors(gap.triple(site));
         let disk = TouchingDisk::guess(&governors, gap.start.centre)?;
         if let Governor::Edge { start, end, direction } = governors[1] {
             let x = direction.dot(disk.centre + (disk.origin - start));
@@ -310,7 +310,7 @@ impl<'a> Search<'a> {
                         best = None;
                         continue;
                     }
-                    return Ok(Found::Disk { disk, triple, contacts });
+                    return Ok(Found::Disk { disk, triple, contacts, fixed: false });
                 }
             }
         }
@@ -388,7 +388,7 @@ impl<'a> Search<'a> {
         triple: &[Site; 3],
         guess: &TouchingDisk,
     ) -> Option<(TouchingDisk, Option<ExactDisk>)> {
-        let governors = triple.map(|s| self.domain.governor(s));
+        let governors = self.domain.governors(*triple);
         if let Some(disk) = guess.certified(&governors) {
             return Some((disk, None));
         }

@@ -131,7 +131,7 @@ impl<'a> Tracer<'a> {
         };
         let to = match found {
             Found::Corner(corner) => self.add_end(corner),
-            Found::Disk { disk, triple, contacts } => {
+            Found::Disk { disk, triple, contacts, fixed } => {
                 let list: Contacts = from_least(&contacts).copied().collect();
                 // The path seen from its other end has its governors the other way round.
                 let known = self.gaps.as_mut().and_then(|gaps| {
@@ -140,7 +140,7 @@ impl<'a> Tracer<'a> {
                 match known {
                     Some(to) => to,
                     None => {
-                        let to = self.add_keypoint(&disk, triple, &list);
+                        let to = self.add_keypoint(&disk, triple, &list, fixed);
                         self.leave(to, &disk, triple, &contacts, right, left)
                             .ok_or(broken("closing a path"))?;
                         to
@@ -194,14 +194,20 @@ impl<'a> Tracer<'a> {
         self.traced.add(edge.start, 0.0, KeypointKind::End, &[a.min(b), a.max(b)])
     }
 
-    fn add_keypoint(&mut self, disk: &TouchingDisk, triple: [Site; 3], list: &[Site]) -> u32 {
-        let governors = |sites: [Site; 3]| sites.map(|s| self.domain.governor(s));
+    fn add_keypoint(
+        &mut self,
+        disk: &TouchingDisk,
+        triple: [Site; 3],
+        list: &[Site],
+        fixed: bool,
+    ) -> u32 {
         // The position depends on the governors only, not on how the keypoint was found.
-        let fixed = match *list {
-            [a, b, c] => TouchingDisk::touching(&governors([a, b, c])),
+        let own = match *list {
+            _ if fixed => Some(*disk),
+            [a, b, c] => TouchingDisk::touching(&self.domain.governors([a, b, c])),
             _ => None,
         };
-        self.traced.add_disk(fixed.as_ref(), disk, triple, list)
+        self.traced.add_disk(own.as_ref(), disk, triple, list)
     }
 
     /// The axis: every position computed as precisely as promised.
