@@ -212,7 +212,7 @@ impl TouchingDisk {
             else {
                 return None;
             };
-            return Self::on_normal(v, direction, &governors[other]).ok().flatten();
+            return Self::on_normal(v, direction, &governors[other], f64::INFINITY).ok().flatten();
         }
         let [a, b, c] = corners_first(governors);
         let g = match (a, c) {
@@ -220,7 +220,10 @@ impl TouchingDisk {
             (Governor::Corner(_), Governor::Corner(_))
             | (Governor::Edge { .. }, Governor::Edge { .. }) => {
                 let least = |x: &Governor, y: &Governor| {
-                    x.anchor().lexicographic(y.anchor()).then(x.end().lexicographic(y.end())).is_le()
+                    x.anchor()
+                        .lexicographic(y.anchor())
+                        .then(x.end().lexicographic(y.end()))
+                        .is_le()
                 };
                 if least(a, b) && least(a, c) {
                     [a, b, c]
@@ -254,12 +257,17 @@ impl TouchingDisk {
     }
 
     /// The certified disk with its centre on the normal at `v` of an edge that ends there, touching
-    /// one more element; `Ok(None)` if there certainly is none.
+    /// one more element; `Ok(None)` if there certainly is none of at most the `largest` radius.
     ///
     /// # Errors
     /// [`Unsure`] where doubles cannot tell.
     #[inline]
-    pub fn on_normal(v: Point, direction: Point, other: &Governor) -> Result<Option<Self>, Unsure> {
+    pub fn on_normal(
+        v: Point,
+        direction: Point,
+        other: &Governor,
+        largest: f64,
+    ) -> Result<Option<Self>, Unsure> {
         let normal = direction.perp();
         let (radius, error) = match *other {
             Governor::Corner(w) => {
@@ -270,7 +278,9 @@ impl TouchingDisk {
                 // Each component of the normal is off by at most 4u, w by u of its own.
                 let share = 12.0 * U * square.sqrt() / along;
                 if along.is_nan() || along <= 0.0 || share > 0.125 {
-                    return if -along > 12.0 * U * square.sqrt() { Ok(None) } else { Err(Unsure) };
+                    let most = along + 12.0 * U * square.sqrt();
+                    let none = most < 0.0 || square > 2.0 * most * largest;
+                    return if none { Ok(None) } else { Err(Unsure) };
                 }
                 (radius, radius * (2.0 * share + 8.0 * U))
             }
@@ -290,13 +300,17 @@ impl TouchingDisk {
                     (square / 2.0, 16.0 * U * square.sqrt())
                 };
                 if h.is_nan() || h <= 0.0 || g <= 2.0 * g_error {
-                    return if -h > h_error { Ok(None) } else { Err(Unsure) };
+                    let none = -h > h_error || h - h_error > (g + g_error) * largest;
+                    return if none { Ok(None) } else { Err(Unsure) };
                 }
                 let radius = h / g;
                 let error = (h_error + radius * (g_error + 4.0 * U * g)) / (g - g_error);
                 (radius, error)
             }
         };
+        if radius - error > largest {
+            return Ok(None);
+        }
         let bound = 2.0 * error + 16.0 * U * radius;
         let disk = Self { origin: v, centre: normal * radius, radius, bound };
         if radius > 0.0 && bound < radius && radius.is_finite() {

@@ -23,7 +23,7 @@ use std::cmp::Ordering;
 use super::contacts::follows;
 use super::front::Front;
 use super::rings::{Link, Round};
-use super::search::{Found, Gap, Proposal, SLACK, Search, Start, contact_behind};
+use super::search::{Found, Gap, Proposal, SLACK, Search, Start, contact_behind, rounded};
 use super::verify::{Verdict, Verify, cuts_clearly};
 use crate::domain::{Corner, Edge, Site};
 use crate::geom::{Point, TouchingDisk, Unsure};
@@ -205,7 +205,7 @@ impl Search<'_> {
     fn leave(&self, normal: Normal, other: Site) -> Result<Option<Event>, Unsure> {
         let direction = self.domain.edge(normal.edge).direction;
         let other = self.domain.governor(other);
-        let disk = TouchingDisk::on_normal(normal.at, direction, &other)?;
+        let disk = TouchingDisk::on_normal(normal.at, direction, &other, self.largest)?;
         Ok(disk.map(|disk| Event::Leave { disk, site: normal.site }))
     }
 
@@ -223,6 +223,9 @@ impl Search<'_> {
         let site = Site::edge(edge);
         let other = self.domain.governor(other);
         let disk = TouchingDisk::in_corner(v, incoming, outgoing, &other)?;
+        if disk.radius > self.largest {
+            return None;
+        }
         let ahead = gap.course(self.domain).position(&disk) > 0.0;
         if !ahead {
             self.behind.push(edge);
@@ -420,11 +423,14 @@ impl Search<'_> {
         front: Option<Front>,
         mut end: Proposal,
     ) -> Option<Found> {
+        // The exact disk of the proposal, where only exact arithmetic made it.
+        let mut exact = None;
         for _ in 0..MOST_ROUNDS {
             let (right, left) = self.link;
             let here = self.passed.last().map_or(anchor, |p| Start::at(&p.disk));
             let gap = Gap::new(right, left, here, front);
             let triple = gap.triple(end.site);
+            let by_form = exact.is_none();
             let disk = if end.disk.bound.is_finite() {
                 end.disk
             } else {
@@ -440,7 +446,7 @@ impl Search<'_> {
             let mut verify = Verify::certified(self, &gap, start, triple, disk, true);
             verify.run();
             let link = verify.link();
-            match verify.verdict(None) {
+            match verify.verdict(exact.take()) {
                 Verdict::Better(next) => {
                     self.go_back(link);
                     end = next;
@@ -456,6 +462,8 @@ impl Search<'_> {
                     }
                     self.link = (right, left);
                     if self.rings.is_some() {
+                        let here = self.passed.last().map_or(anchor, |p| Start::at(&p.disk));
+                        let gap = Gap::new(right, left, here, front);
                         let slack = 1e-6 * (disk.radius + here.radius) + disk.bound + here.doubt;
                         if gap.course(self.domain).position(&disk) <= slack
                             || contact_behind(&contacts, right, left).is_some()
@@ -464,7 +472,7 @@ impl Search<'_> {
                             return None;
                         }
                     }
-                    let fixed = contacts.len() == 3;
+                    let fixed = contacts.len() == 3 && by_form;
                     return Some(Found::Disk { disk, triple, contacts, fixed });
                 }
                 Verdict::OffEdge => {
@@ -475,6 +483,12 @@ impl Search<'_> {
                             return None;
                         }
                     }
+                }
+                Verdict::Earlier(site) if self.may_be_third(&gap, site) => {
+                    let smaller = self.exact(&gap.triple(site))?;
+                    let disk = rounded(&smaller, self.domain.edge(site.index()).start);
+                    end = Proposal { site, disk, position: 0.0 };
+                    exact = Some(smaller);
                 }
                 Verdict::Cut(_) | Verdict::Earlier(_) => return None,
             }
@@ -505,7 +519,7 @@ impl Search<'_> {
 
     /// Whether no ring can lie in the pocket of the path passed and one more piece.
     fn is_open(&self, r: Site, l: Site, anchor: Start, end: Round) -> bool {
-        let Some(rings) = &self.rings else { return true };
+        let Some(rings) = self.rings.as_ref().filter(|_| self.careful) else { return true };
         let first = Round {
             centre: anchor.centre,
             off: Point::default(),

@@ -33,7 +33,33 @@ pub(super) struct Traced {
     rough: Vec<Rough>,
 }
 
+/// How much was traced at some moment.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Mark {
+    keypoints: usize,
+    governors: usize,
+    paths: usize,
+    rough: usize,
+}
+
 impl Traced {
+    pub fn mark(&self) -> Mark {
+        Mark {
+            keypoints: self.keypoints.len(),
+            governors: self.governors.len(),
+            paths: self.paths.len(),
+            rough: self.rough.len(),
+        }
+    }
+
+    /// Forgets what was traced since.
+    pub fn go_back(&mut self, mark: Mark) {
+        self.keypoints.truncate(mark.keypoints);
+        self.governors.truncate(mark.governors);
+        self.paths.truncate(mark.paths);
+        self.rough.truncate(mark.rough);
+    }
+
     /// Whether a keypoint has these governors, from the smallest one on.
     pub fn has_governors(&self, keypoint: u32, list: &[Site]) -> bool {
         let own = axis::governors(&self.keypoints, &self.governors, keypoint);

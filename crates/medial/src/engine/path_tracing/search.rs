@@ -107,8 +107,13 @@ const FLOATING_TRIES: usize = 48;
 pub(super) struct Search<'a> {
     pub domain: &'a Domain,
     pub tree: CapsuleTree,
+    /// No disk inside the polygon has a larger radius.
+    pub largest: f64,
     pub rings: Option<HiddenRings>,
     pub banned: Vec<Site>,
+    /// Whether every piece of a path is searched for whole rings, and not only counted on in the end
+    /// that every ring governs something.
+    pub careful: bool,
     /// Transitions of the last path that was chased.
     pub passed: Vec<Passed>,
     /// Governors of the piece of it that was looked at last.
@@ -128,11 +133,14 @@ impl<'a> Search<'a> {
         let n: u32 = domain.walks()[walks.clone()].iter().map(|w| w.len).sum();
         let tree = CapsuleTree::new(first, n, |k| (domain.edge(k).start, domain.end(k)));
         let rings = HiddenRings::new(domain, walks);
+        let bounds = tree.bounds();
         Self {
             domain,
+            largest: (bounds.max - bounds.min).norm(),
             tree,
             rings,
             banned: Vec::new(),
+            careful: false,
             passed: Vec::new(),
             link: (Site(0), Site(0)),
             tie: None,
@@ -420,7 +428,7 @@ impl<'a> Search<'a> {
 }
 
 /// Doubles for an exact disk, within two ulp.
-fn rounded(exact: &ExactDisk, origin: Point) -> TouchingDisk {
+pub(super) fn rounded(exact: &ExactDisk, origin: Point) -> TouchingDisk {
     let (position, radius) = exact.approximate();
     let centre = position - origin;
     let scale = position.x.abs().max(position.y.abs()).max(radius);

@@ -2,7 +2,7 @@ use std::ops::Range;
 
 use super::chain::Passed;
 use super::contacts::{Contacts, follows};
-use super::finish::Traced;
+use super::finish::{Mark, Traced};
 use super::gaps::Gaps;
 use super::search::{Found, Search, Start};
 use crate::axis::{KeypointKind, MedialAxis, Path};
@@ -35,6 +35,12 @@ pub(super) struct Tracer<'a> {
     stack: Vec<Pending>,
     /// Open gaps by their governors; `None` where no loop can close.
     gaps: Option<Gaps>,
+    /// For each walk of a polygon with holes whether it governs anything.
+    met: Vec<bool>,
+    /// Number of the polygon's first walk.
+    first_walk: u32,
+    /// What was traced before the current polygon.
+    before: Mark,
     pub traced: Traced,
     /// Whether every path is looked for by itself.
     pub single: bool,
@@ -63,6 +69,9 @@ impl<'a> Tracer<'a> {
             seeds: Vec::new(),
             stack: Vec::new(),
             gaps: None,
+            met: Vec::new(),
+            first_walk: 0,
+            before: Mark::default(),
             traced: Traced::default(),
             single: false,
         })
@@ -89,14 +98,22 @@ impl<'a> Tracer<'a> {
                 self.stack.push(Pending { keypoint, right, left, gap: None, start });
                 continue;
             }
+            // A ring that hides between two empty disks governs nothing: look at every piece then.
+            let careful =
+                self.met.contains(&false) && self.search.take().is_some_and(|s| !s.careful);
+            if careful {
+                self.traced.go_back(self.before);
+                self.current -= 1;
+            }
             let Some(walks) = self.polygons.get(self.current).cloned() else { return Ok(false) };
             self.current += 1;
-            self.enter_polygon(walks);
+            self.enter_polygon(walks, careful);
         }
     }
 
-    fn enter_polygon(&mut self, walks: Range<usize>) {
+    fn enter_polygon(&mut self, walks: Range<usize>, careful: bool) {
         let domain = self.domain;
+        self.before = self.traced.mark();
         let all = &domain.walks()[walks.clone()];
         let loops = all.iter().any(|w| w.hole);
         self.gaps = loops.then(|| {
@@ -108,7 +125,15 @@ impl<'a> Tracer<'a> {
                 .find(|&k| domain.edge(k).corner == Corner::Convex);
             self.seeds.extend(convex);
         }
-        self.search = Some(Search::new(domain, walks));
+        self.met.clear();
+        if loops {
+            // Outer rings meet the axis at their convex corners.
+            self.met.extend(all.iter().map(|w| !w.hole));
+        }
+        self.first_walk = walks.start as u32;
+        let mut search = Search::new(domain, walks);
+        search.careful = careful;
+        self.search = Some(search);
     }
 
     fn trace(&mut self, pending: Pending) -> Result<(), EngineError> {
@@ -163,6 +188,12 @@ impl<'a> Tracer<'a> {
         right: Site,
         left: Site,
     ) -> Option<()> {
+        if self.gaps.is_some() {
+            for site in contacts {
+                let walk = self.domain.edge(site.index()).walk;
+                self.met[(walk - self.first_walk) as usize] = true;
+            }
+        }
         let n = contacts.len();
         let start = Start { triple: Some(triple), ..Start::at(disk) };
         let mut arrived = false;
