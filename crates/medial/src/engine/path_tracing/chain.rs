@@ -124,7 +124,11 @@ impl Search<'_> {
                 return self.is_open(r, l, start, end).then_some(Found::Corner(l.index()));
             }
             let gap = Gap::new(r, l, here, front);
-            let event = self.next_event(&gap).ok()?;
+            let event = self.next_event(&gap);
+            if event.is_err() && self.passed.is_empty() {
+                return None;
+            }
+            let event = event.unwrap_or(None);
             let cut = |disk: &TouchingDisk| {
                 self.behind.iter().any(|&e| {
                     let edge = self.domain.edge(e);
@@ -268,11 +272,24 @@ impl Search<'_> {
         if y < -back_doubt {
             return Err(Unsure);
         }
-        if !governor.is_edge() && !self.turns(gap, normal.at, disk, side) {
-            // The zone was left on the way and entered anew from behind.
-            return Ok(Reach::Past);
+        if !self.advances(gap, disk, side) {
+            // A corner's zone was left on the way and entered anew from behind.
+            return if governor.is_edge() { Err(Unsure) } else { Ok(Reach::Past) };
         }
         Ok(if x < -doubt { Reach::Within } else { Reach::Level })
+    }
+
+    /// Whether the footpoint of a governor moves on to a disk as it must.
+    fn advances(&self, gap: &Gap, disk: &TouchingDisk, side: f64) -> bool {
+        let governor = if side > 0.0 { gap.right } else { gap.left };
+        let edge = self.domain.edge(governor.index());
+        if !governor.is_edge() {
+            return self.turns(gap, edge.start, disk, side);
+        }
+        let step = disk.centre + (disk.origin - gap.start.centre);
+        let size = step.x.abs() + step.y.abs() + gap.start.radius + disk.radius;
+        let bound = if disk.bound.is_finite() { disk.bound } else { SLACK * disk.radius };
+        side * edge.direction.dot(step) >= -(bound + gap.start.doubt + 16.0 * U * size)
     }
 
     /// Whether the spoke of a corner turns on the way to a disk as it must, by less than half a turn:
@@ -309,9 +326,14 @@ impl Search<'_> {
             (Ending::Turn { edge }, Ending::Normal(normal)) => (edge, normal, r, -1.0),
             (Ending::Normal(normal), Ending::Turn { edge }) => (edge, normal, l, 1.0),
         };
-        let Some(meet) = self.meet(gap, edge, side < 0.0) else { return self.leave(normal, other) };
+        // The one that turns stays while the other one leaves.
+        let leave = |this: &Self| {
+            let event = this.leave(normal, other)?;
+            Ok(event.filter(|e| this.advances(gap, e.disk(), -side)))
+        };
+        let Some(meet) = self.meet(gap, edge, side < 0.0) else { return leave(self) };
         Ok(match self.reach(gap, normal, meet.disk(), side)? {
-            Reach::Past => Some(self.leave(normal, other)?.ok_or(Unsure)?),
+            Reach::Past => Some(leave(self)?.ok_or(Unsure)?),
             Reach::Within | Reach::Level => Some(meet),
         })
     }
