@@ -105,6 +105,16 @@ impl TouchingDisk {
         self.origin + self.centre
     }
 
+    /// Whether its position and radius, rounded, are within 4 ulp of max(|x|, |y|, radius).
+    #[inline]
+    #[must_use]
+    pub fn is_precise(&self) -> bool {
+        let position = self.position();
+        let size = position.x.abs().max(position.y.abs()).max(self.radius);
+        // Three units in the last place at most; rounding adds half a one.
+        self.bound <= 1.5 * f64::EPSILON * size
+    }
+
     /// The disk that touches three elements counterclockwise in the order given, uncertified.
     ///
     /// `near` chooses the local origin among the ends of the elements.

@@ -10,10 +10,6 @@ use crate::domain::{Domain, Site};
 use crate::engine::EngineError;
 use crate::geom::{Point, TouchingDisk};
 
-/// Share of its size by which a position may be off before it is rounded: three units in the last
-/// place of the four that are promised, at most.
-const PRECISE: f64 = 1.5 * f64::EPSILON;
-
 /// A keypoint that must be placed more precisely.
 #[derive(Clone, Copy, Debug)]
 struct Rough {
@@ -94,10 +90,8 @@ impl Traced {
         list: &[Site],
     ) -> u32 {
         if let Some(fixed) = fixed {
-            let position = fixed.position();
-            let size = position.x.abs().max(position.y.abs()).max(fixed.radius);
-            if fixed.bound <= PRECISE * size {
-                return self.add(position, fixed.radius, KeypointKind::Junction, list);
+            if fixed.is_precise() {
+                return self.add(fixed.position(), fixed.radius, KeypointKind::Junction, list);
             }
         }
         let Start { centre, radius, doubt, .. } = Start::at(disk);

@@ -8,7 +8,7 @@
 use super::contacts::follows;
 use crate::domain::{Domain, Site};
 use crate::geom::predicates::ExactDisk;
-use crate::geom::{Double, Governor, Point};
+use crate::geom::{Double, Governor, Point, TouchingDisk};
 
 /// How many times the doubt about a start goes into the radius before no second disk of the same
 /// triple can be meant.
@@ -48,6 +48,12 @@ pub(super) fn position(
     let same = |&(c, r): &(Point, f64)| {
         (c - centre).norm() + (r - radius).abs() <= 4.0 * doubt && doubt <= r / FAR_APART
     };
+    if let Some(disk) = TouchingDisk::touching(&governors)
+        && disk.is_precise()
+        && same(&(disk.position(), disk.radius))
+    {
+        return Some((disk.position(), disk.radius));
+    }
     let precise = Precise::new(&governors, centre, radius).and_then(|mut p| p.refine());
     if let Some(precise) = precise.filter(same) {
         return Some(precise);
