@@ -43,6 +43,9 @@ const LEAP: f64 = 4.0;
 /// Elements to either side of one that was met beyond its end that are proposed instead.
 const FEW: usize = 4;
 
+/// Way, in lengths of the edges there, beyond which the next elements are tried as well.
+const FAR: f64 = 3.0;
+
 /// Disks looked into before the path is left to exact arithmetic.
 const MOST_ROUNDS: usize = 64;
 
@@ -148,6 +151,7 @@ impl Search<'_> {
             if let Some(Event::Leave { disk, site }) = event
                 && radius <= GROWTH * known
                 && self.passed.len() < LONGEST
+                && self.look_ahead(&gap, &disk).is_none()
             {
                 (r, l) = self.pass(r, l, disk, site);
                 here = Start::at(&disk);
@@ -162,8 +166,44 @@ impl Search<'_> {
             if radius > LEAP * known {
                 end = self.approach(start, &gap, end, known);
             }
+            if let Some(Proposal { disk, .. }) = end
+                && self.link == (gap.right, gap.left)
+                && let Some(nearer) = self.look_ahead(&gap, &disk)
+            {
+                end = Some(nearer);
+            }
             return self.settle_chain(start, front, end?);
         }
+    }
+
+    /// Where a disk of the path is many edges away, a nearer one that the next elements of the
+    /// boundary propose.
+    #[inline]
+    fn look_ahead(&self, gap: &Gap, disk: &TouchingDisk) -> Option<Proposal> {
+        let length = |s: Site| self.domain.edge(s.index()).length;
+        let local = length(gap.right).min(length(gap.left));
+        let way = disk.centre + (disk.origin - gap.start.centre);
+        let far = way.norm2() > (FAR * local) * (FAR * local);
+        if far { self.next_elements(gap, disk) } else { None }
+    }
+
+    fn next_elements(&self, gap: &Gap, disk: &TouchingDisk) -> Option<Proposal> {
+        let mut nearest = gap.course(self.domain).position(disk);
+        let mut best = None;
+        let (mut ahead, mut behind) = (gap.right, gap.left);
+        for _ in 0..FEW {
+            (ahead, behind) = (self.domain.ahead(ahead), self.domain.behind(behind));
+            for site in [ahead, behind] {
+                if let Some(p) = self.propose(gap, site)
+                    && p.position < nearest * (1.0 - SLACK)
+                    && p.position > 0.0
+                {
+                    nearest = p.position;
+                    best = Some(p);
+                }
+            }
+        }
+        best
     }
 
     fn ending_right(&self, r: Site) -> Option<Ending> {
