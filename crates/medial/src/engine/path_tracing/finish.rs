@@ -48,6 +48,11 @@ impl Traced {
         }
     }
 
+    /// Keypoints traced since.
+    pub fn since(&self, mark: Mark) -> usize {
+        self.keypoints.len() - mark.keypoints
+    }
+
     /// Forgets what was traced since.
     pub fn go_back(&mut self, mark: Mark) {
         self.keypoints.truncate(mark.keypoints);

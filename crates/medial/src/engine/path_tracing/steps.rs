@@ -37,8 +37,7 @@ pub struct Steps<'a> {
 
 impl<'a> Steps<'a> {
     pub(super) fn new(domain: &'a Domain) -> Result<Self, EngineError> {
-        let mut tracer = Tracer::new(domain)?;
-        tracer.single = true;
+        let tracer = Tracer::one_by_one(domain)?;
         Ok(Self { tracer, failed: false })
     }
 }

@@ -22,6 +22,17 @@ struct Pending {
     start: Start,
 }
 
+/// How a polygon is traced; each way takes longer than the one before and trusts less.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Care {
+    /// Chains of transitions at once; that no ring was lost is counted in the end.
+    Quick,
+    /// The same, every piece of a path searched for whole rings.
+    Rings,
+    /// Every path by itself.
+    Single,
+}
+
 /// The tracing, one path at a time; the paper's stack of paths instead of recursion.
 pub(super) struct Tracer<'a> {
     domain: &'a Domain,
@@ -39,11 +50,14 @@ pub(super) struct Tracer<'a> {
     met: Vec<bool>,
     /// Number of the polygon's first walk.
     first_walk: u32,
+    /// More keypoints than the current polygon can have.
+    most: usize,
     /// What was traced before the current polygon.
     before: Mark,
     pub traced: Traced,
-    /// Whether every path is looked for by itself.
-    pub single: bool,
+    /// How the polygons are traced, and how the current one is.
+    least_care: Care,
+    care: Care,
 }
 
 impl<'a> Tracer<'a> {
@@ -71,10 +85,18 @@ impl<'a> Tracer<'a> {
             gaps: None,
             met: Vec::new(),
             first_walk: 0,
+            most: 0,
             before: Mark::default(),
             traced: Traced::default(),
-            single: false,
+            least_care: Care::Quick,
+            care: Care::Quick,
         })
+    }
+
+    /// The same, every path looked for by itself.
+    pub fn one_by_one(domain: &'a Domain) -> Result<Self, EngineError> {
+        let tracer = Self::new(domain)?;
+        Ok(Self { least_care: Care::Single, care: Care::Single, ..tracer })
     }
 
     /// Traces on to the next keypoint that is no plain transition; false when all is done.
@@ -86,8 +108,10 @@ impl<'a> Tracer<'a> {
                     _ => true,
                 };
                 if taken {
-                    self.trace(pending)?;
-                    return Ok(true);
+                    match self.trace(pending) {
+                        Ok(()) => return Ok(true),
+                        Err(error) => self.start_again(error)?,
+                    }
                 }
             }
             if let Some(corner) = self.seeds.pop() {
@@ -98,20 +122,37 @@ impl<'a> Tracer<'a> {
                 self.stack.push(Pending { keypoint, right, left, gap: None, start });
                 continue;
             }
-            // A ring that hides between two empty disks governs nothing: look at every piece then.
-            let careful =
-                self.met.contains(&false) && self.search.take().is_some_and(|s| !s.careful);
-            if careful {
-                self.traced.go_back(self.before);
-                self.current -= 1;
+            if self.met.contains(&false) {
+                // A ring that hides between two empty disks governs nothing.
+                let place = self.domain.edge(0).start;
+                self.met.clear();
+                self.start_again(EngineError::Internal { stage: "counting rings", place })?;
+                continue;
             }
+            self.care = self.least_care;
             let Some(walks) = self.polygons.get(self.current).cloned() else { return Ok(false) };
             self.current += 1;
-            self.enter_polygon(walks, careful);
+            self.enter_polygon(walks);
         }
     }
 
-    fn enter_polygon(&mut self, walks: Range<usize>, careful: bool) {
+    /// Goes back to the start of the current polygon, to take more care.
+    fn start_again(&mut self, error: EngineError) -> Result<(), EngineError> {
+        self.care = match (&error, self.care) {
+            (EngineError::Internal { .. }, Care::Quick) => Care::Rings,
+            (EngineError::Internal { .. }, Care::Rings) => Care::Single,
+            _ => return Err(error),
+        };
+        self.traced.go_back(self.before);
+        self.stack.clear();
+        self.seeds.clear();
+        self.met.clear();
+        let Some(walks) = self.polygons.get(self.current - 1).cloned() else { return Err(error) };
+        self.enter_polygon(walks);
+        Ok(())
+    }
+
+    fn enter_polygon(&mut self, walks: Range<usize>) {
         let domain = self.domain;
         self.before = self.traced.mark();
         let all = &domain.walks()[walks.clone()];
@@ -131,8 +172,11 @@ impl<'a> Tracer<'a> {
             self.met.extend(all.iter().map(|w| !w.hole));
         }
         self.first_walk = walks.start as u32;
+        // An edge and a corner govern at most three each, holes and components some more.
+        let n_edges: u32 = all.iter().map(|w| w.len).sum();
+        self.most = 8 * n_edges as usize + 64;
         let mut search = Search::new(domain, walks);
-        search.careful = careful;
+        search.careful = self.care > Care::Quick;
         self.search = Some(search);
     }
 
@@ -140,7 +184,8 @@ impl<'a> Tracer<'a> {
         let Pending { mut keypoint, mut right, mut left, start, .. } = pending;
         let broken = |stage| EngineError::Internal { stage, place: start.centre };
         let search = self.search.as_mut().ok_or(broken("preparing the search"))?;
-        let chased = if self.single { None } else { search.chase(right, left, start) };
+        let chased =
+            if self.care == Care::Single { None } else { search.chase(right, left, start) };
         let found = match chased {
             Some(found) => {
                 (right, left) = search.link;
@@ -174,6 +219,9 @@ impl<'a> Tracer<'a> {
             }
         };
         self.traced.paths.push(path(keypoint, to, right, left));
+        if self.traced.since(self.before) > self.most {
+            return Err(broken("counting keypoints"));
+        }
         Ok(())
     }
 
