@@ -108,7 +108,10 @@ pub(crate) fn points(rings: Vec<Ring>) -> Vec<Vec<Point>> {
 }
 
 /// A JSON value without white space between its tokens, so that it fits on one line.
-pub(crate) fn compact(value: &RawValue) -> String {
+pub(crate) fn compact(value: &RawValue) -> Cow<'_, str> {
+    if !value.get().contains(|c: char| c.is_ascii_whitespace()) {
+        return value.get().into();
+    }
     let (mut in_string, mut escaped) = (false, false);
     let keep = |c: &char| {
         if in_string {
@@ -125,5 +128,6 @@ pub(crate) fn compact(value: &RawValue) -> String {
 
 /// A text as a JSON string.
 pub(crate) fn quoted(text: &str) -> String {
-    serde_json::Value::from(text).to_string()
+    // Text always has a JSON form.
+    serde_json::to_string(text).unwrap_or_default()
 }

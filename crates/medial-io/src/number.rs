@@ -1,15 +1,34 @@
+/// Appends the shortest decimal that reads back to this double, a whole number with `.0`, as in
+/// GeoJSON: `4.0`, `0.1`, `1e300`. It is what `{:?}` writes, sooner.
+pub(crate) fn push_decimal(out: &mut String, value: f64) {
+    let size = value.abs();
+    if (1e-5..1e-4).contains(&size) {
+        // Here the fast algorithm would write `0.00002`, where `{:?}` writes `2e-5`.
+        out.push_str(&format!("{value:?}"));
+    } else {
+        out.push_str(zmij::Buffer::new().format(value));
+    }
+}
+
+/// Appends the shortest decimal that reads back to this double, as in WKT and CSV: `4`, `0.1`,
+/// `1e300`.
+pub(crate) fn push_shortest(out: &mut String, value: f64) {
+    push_decimal(out, value);
+    if out.ends_with(".0") {
+        out.truncate(out.len() - 2);
+    }
+}
+
 /// The shortest decimal that reads back to this double, as in WKT and CSV: `4`, `0.1`, `1e300`.
 pub(crate) fn shortest(value: f64) -> String {
-    let mut text = format!("{value:?}");
-    if text.ends_with(".0") {
-        text.truncate(text.len() - 2);
-    }
-    text
+    let mut out = String::new();
+    push_shortest(&mut out, value);
+    out
 }
 
 #[cfg(test)]
 mod tests {
-    use super::shortest;
+    use super::*;
 
     #[test]
     fn doubles_read_back_exactly() {
@@ -17,6 +36,37 @@ mod tests {
             assert_eq!(shortest(value).parse::<f64>().unwrap().to_bits(), value.to_bits());
         }
         assert_eq!(shortest(4.0), "4");
+        assert_eq!(shortest(-0.0), "-0");
         assert_eq!(shortest(1e300), "1e300");
+        assert_eq!(shortest(2e-5), "2e-5");
+    }
+
+    #[test]
+    fn decimals_are_those_of_the_standard_library() {
+        let same = |value: f64| {
+            let mut decimal = String::new();
+            push_decimal(&mut decimal, value);
+            assert_eq!(decimal, format!("{value:?}"));
+        };
+        for exponent in -324..=308 {
+            let power: f64 = format!("1e{exponent}").parse().unwrap();
+            let near = [power, power.next_up(), power.next_down(), 2.5 * power, power / 3.0];
+            near.into_iter().for_each(|value| {
+                same(value);
+                same(-value);
+            });
+        }
+        for exponent in 0..2047_u64 {
+            same(f64::from_bits(exponent << 52));
+            same(f64::from_bits((exponent << 52) + 1));
+        }
+        // Every bit pattern is as likely: a sequence of full period modulo 2^64.
+        let mut bits = 1_u64;
+        for _ in 0..200_000 {
+            bits = bits.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            same(f64::from_bits(bits));
+            same((bits >> 40) as f64 / 1024.0);
+        }
+        [0.0, -0.0, f64::NAN, f64::INFINITY, f64::MIN_POSITIVE, f64::MAX].map(same);
     }
 }

@@ -9,7 +9,7 @@ use crate::progress::Progress;
 use crate::report::{self, Entry, FeatureReport, Report};
 use crate::timings::{self, Stages, timed};
 use medial::domain::{Domain, Options};
-use medial_io::{Feature, FeatureError, Json, Layer};
+use medial_io::{Feature, FeatureError, Json, Layer, Part};
 use std::num::NonZeroUsize;
 use std::ops::ControlFlow;
 use std::path::Path;
@@ -50,23 +50,26 @@ impl Run<'_> {
         let common = self.common;
         let progress = Progress::new(common.progress, common.quiet, layer.len);
         let mut report = Report { input: input.name.clone(), ..Report::default() };
+        let mut each = |outcome: Outcome<R>| {
+            self.stages.add(outcome.stages);
+            progress.step();
+            match tell(outcome, input, &progress, &mut report) {
+                Some(result) => match done(result) {
+                    Ok(()) => ControlFlow::Continue(()),
+                    Err(failure) => ControlFlow::Break(Some(failure)),
+                },
+                None if common.on_error == OnError::Stop => ControlFlow::Break(None),
+                None => ControlFlow::Continue(()),
+            }
+        };
+        let mut find = Duration::ZERO;
         let broke = ordered(
-            Timed(layer),
+            Batches { parts: layer.parts(), find: &mut find },
             common.threads.unwrap_or_else(all_processors),
-            |(feature, read)| process(feature, read, common, &work),
-            |outcome| {
-                self.stages.add(outcome.stages);
-                progress.step();
-                match tell(outcome, input, &progress, &mut report) {
-                    Some(result) => match done(result) {
-                        Ok(()) => ControlFlow::Continue(()),
-                        Err(failure) => ControlFlow::Break(Some(failure)),
-                    },
-                    None if common.on_error == OnError::Stop => ControlFlow::Break(None),
-                    None => ControlFlow::Continue(()),
-                }
-            },
+            |batch| batch.into_iter().map(|part| process(part, common, &work)).collect::<Vec<_>>(),
+            |outcomes| outcomes.into_iter().try_for_each(&mut each),
         );
+        self.stages.read += find;
         progress.finish();
         if let Some(path) = &common.report {
             report.write(path)?;
@@ -91,21 +94,38 @@ fn all_processors() -> NonZeroUsize {
     std::thread::available_parallelism().unwrap_or(NonZeroUsize::MIN)
 }
 
-/// The layer, each item with the time it took to read.
-struct Timed<'a>(Layer<'a>);
+/// Most features of a batch.
+const BATCH: usize = 32;
 
-impl Iterator for Timed<'_> {
-    type Item = (Result<Feature, FeatureError>, Duration);
+/// Bytes of text at which a batch is full: small features go together, so that threads do not
+/// wait for one another at each of them, and large ones alone.
+const BATCH_BYTES: usize = 16 << 10;
+
+/// The features of a layer in batches, with the time it took to find them.
+struct Batches<'a, I> {
+    parts: I,
+    find: &'a mut Duration,
+}
+
+impl<'p, I: Iterator<Item = Part<'p>>> Iterator for Batches<'_, I> {
+    type Item = Vec<Part<'p>>;
 
     fn next(&mut self) -> Option<Self::Item> {
-        let mut read = Duration::ZERO;
-        timed(&mut read, || self.0.next()).map(|item| (item, read))
+        let mut batch = Vec::new();
+        timed(self.find, || {
+            let mut bytes = 0;
+            while batch.len() < BATCH && bytes < BATCH_BYTES {
+                let Some(part) = self.parts.next() else { break };
+                bytes += part.size();
+                batch.push(part);
+            }
+        });
+        (!batch.is_empty()).then_some(batch)
     }
 }
 
 fn process<R>(
-    item: Result<Feature, FeatureError>,
-    read: Duration,
+    part: Part,
     common: &Common,
     work: impl Fn(&Feature, &Domain, &mut Stages) -> Result<R, Entry>,
 ) -> Outcome<R> {
@@ -115,9 +135,9 @@ fn process<R>(
         warnings: Vec::new(),
         entries: Vec::new(),
         result: None,
-        stages: Stages { read, ..Stages::default() },
+        stages: Stages::default(),
     };
-    let feature = match item {
+    let feature = match timed(&mut outcome.stages.read, || part.read()) {
         Ok(feature) => feature,
         Err(FeatureError { feature, id, error }) => {
             outcome.index = feature;
@@ -177,14 +197,14 @@ fn tell<R>(
     report: &mut Report,
 ) -> Option<R> {
     let Outcome { index, id, warnings, entries, result, .. } = outcome;
-    let place = format!("{}: feature {index}", input.name);
+    let place = || format!("{}: feature {index}", input.name);
     for warning in warnings {
-        progress.warning(&format!("{place}: {warning}"));
+        progress.warning(&format!("{}: {warning}", place()));
     }
     report.n_features += 1;
     match (&result, entries.last()) {
         (None, Some(refusal)) => {
-            progress.error(&format!("{place}: {}", refusal.message));
+            progress.error(&format!("{}: {}", place(), refusal.message));
             report.left_out += 1;
         }
         _ => report.done += 1,
