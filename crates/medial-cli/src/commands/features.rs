@@ -13,6 +13,7 @@ use medial_io::{Feature, FeatureError, Json, Layer, Part};
 use std::num::NonZeroUsize;
 use std::ops::ControlFlow;
 use std::path::Path;
+use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 /// A run of a command over the features of an input.
@@ -32,42 +33,67 @@ struct Outcome<R> {
     entries: Vec<Entry>,
     /// `None` if it was refused; then the last entry says why.
     result: Option<R>,
+    /// Where its bytes end among those of its batch; they begin where the feature before ends.
+    end: usize,
     stages: Stages,
 }
 
 impl Run<'_> {
-    /// Calls `work` for each valid feature, several at once, and `done` with the results in
-    /// order; tells and reports what is left out.
+    /// Calls `work` for each valid feature, several at once, then `done` with the results and
+    /// `write` with the bytes that `work` appended, both in order; tells and reports what is left
+    /// out.
     ///
     /// The result is whether all went well; a stop at a bad feature is [`Status::NoResult`].
     pub fn each<R: Send>(
         &mut self,
         input: &Input,
         layer: Layer<'_>,
-        work: impl Fn(&Feature, &Domain, &mut Stages) -> Result<R, Entry> + Sync,
-        mut done: impl FnMut(R) -> Result<(), Failure>,
+        work: impl Fn(&Feature, &Domain, &mut Stages, &mut Vec<u8>) -> Result<R, Entry> + Sync,
+        mut done: impl FnMut(R),
+        mut write: impl FnMut(&[u8]) -> Result<(), Failure>,
     ) -> Result<Status, Failure> {
         let common = self.common;
         let progress = Progress::new(common.progress, common.quiet, layer.len);
         let mut report = Report { input: input.name.clone(), ..Report::default() };
-        let mut each = |outcome: Outcome<R>| {
-            self.stages.add(outcome.stages);
-            progress.step();
-            match tell(outcome, input, &progress, &mut report) {
-                Some(result) => match done(result) {
-                    Ok(()) => ControlFlow::Continue(()),
-                    Err(failure) => ControlFlow::Break(Some(failure)),
-                },
-                None if common.on_error == OnError::Stop => ControlFlow::Break(None),
-                None => ControlFlow::Continue(()),
-            }
-        };
         let mut find = Duration::ZERO;
+        // Bytes of earlier batches, for their memory: it grows once and stays warm.
+        let spare = Mutex::new(Vec::new());
+        let spare = || spare.lock().unwrap_or_else(PoisonError::into_inner);
         let broke = ordered(
             Batches { parts: layer.parts(), find: &mut find },
             common.threads.unwrap_or_else(all_processors),
-            |batch| batch.into_iter().map(|part| process(part, common, &work)).collect::<Vec<_>>(),
-            |outcomes| outcomes.into_iter().try_for_each(&mut each),
+            |batch| {
+                let mut bytes = spare().pop().unwrap_or_default();
+                let process = |part| process(part, common, &mut bytes, &work);
+                (batch.into_iter().map(process).collect::<Vec<_>>(), bytes)
+            },
+            |(outcomes, mut bytes)| {
+                let mut end = 0;
+                let mut stopped = false;
+                for outcome in outcomes {
+                    self.stages.add(outcome.stages);
+                    progress.step();
+                    let last = outcome.end;
+                    match tell(outcome, input, &progress, &mut report) {
+                        Some(result) => done(result),
+                        None => stopped = common.on_error == OnError::Stop,
+                    }
+                    if stopped {
+                        break;
+                    }
+                    end = last;
+                }
+                let written = write(&bytes[..end]);
+                if bytes.capacity() <= SPARE_BYTES {
+                    bytes.clear();
+                    spare().push(bytes);
+                }
+                match written {
+                    Err(failure) => ControlFlow::Break(Some(failure)),
+                    Ok(()) if stopped => ControlFlow::Break(None),
+                    Ok(()) => ControlFlow::Continue(()),
+                }
+            },
         );
         self.stages.read += find;
         progress.finish();
@@ -101,6 +127,9 @@ const BATCH: usize = 32;
 /// wait for one another at each of them, and large ones alone.
 const BATCH_BYTES: usize = 16 << 10;
 
+/// Most bytes kept for the next batch; what a large feature took is given back.
+const SPARE_BYTES: usize = 1 << 20;
+
 /// The features of a layer in batches, with the time it took to find them.
 struct Batches<'a, I> {
     parts: I,
@@ -127,7 +156,8 @@ impl<'p, I: Iterator<Item = Part<'p>>> Iterator for Batches<'_, I> {
 fn process<R>(
     part: Part,
     common: &Common,
-    work: impl Fn(&Feature, &Domain, &mut Stages) -> Result<R, Entry>,
+    bytes: &mut Vec<u8>,
+    work: impl Fn(&Feature, &Domain, &mut Stages, &mut Vec<u8>) -> Result<R, Entry>,
 ) -> Outcome<R> {
     let mut outcome = Outcome {
         index: 0,
@@ -135,6 +165,7 @@ fn process<R>(
         warnings: Vec::new(),
         entries: Vec::new(),
         result: None,
+        end: bytes.len(),
         stages: Stages::default(),
     };
     let feature = match timed(&mut outcome.stages.read, || part.read()) {
@@ -161,14 +192,20 @@ fn process<R>(
                 }
                 outcome.entries.push(entry);
             }
-            work(&feature, &domain, &mut stages)
+            work(&feature, &domain, &mut stages, bytes)
         });
         outcome.stages = stages;
         result
     });
     match result.unwrap_or_else(|panic| Err(Entry::refused("internal", panic))) {
-        Ok(result) => outcome.result = Some(result),
-        Err(entry) => outcome.entries.push(entry),
+        Ok(result) => {
+            outcome.result = Some(result);
+            outcome.end = bytes.len();
+        }
+        Err(entry) => {
+            outcome.entries.push(entry);
+            bytes.truncate(outcome.end);
+        }
     }
     outcome
 }
