@@ -72,6 +72,12 @@ impl Output {
         }
     }
 
+    /// Writes all there is to write.
+    pub fn whole(mut self, bytes: &[u8]) -> Result<(), Failure> {
+        self.write(bytes)?;
+        self.finish()
+    }
+
     fn name(&self) -> String {
         match self {
             Self::Stream(_) => "<stdout>".to_owned(),
@@ -79,11 +85,4 @@ impl Output {
             Self::File { path, .. } => path.display().to_string(),
         }
     }
-}
-
-/// Writes a whole file, or none.
-pub fn write_file(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
-    let mut output = Output::create(Some(path))?;
-    output.write(bytes)?;
-    output.finish()
 }

@@ -4,18 +4,17 @@ use crate::args::{AxisArgs, Height};
 use crate::failure::{Failure, Status};
 use crate::input::Input;
 use crate::report::Entry;
-use crate::timings::{Stages, timed};
+use crate::timings::timed;
 use medial::axis::{Engine, MedialAxis};
 use medial::domain::Domain;
 use medial::engine::{EngineError, path_tracing};
 use medial_io::svg::Options;
 use medial_io::{Drawing, Format};
 use std::io::IsTerminal as _;
-use std::time::Instant;
 
 /// `medial axis`.
 pub fn run(args: &AxisArgs) -> Result<Status, Failure> {
-    let mut run = Run { common: &args.common, start: Instant::now(), stages: Stages::default() };
+    let mut run = Run::new(&args.common)?;
     let format = output_format(args)?;
     let drawing = Drawing {
         tolerance: args.tolerance,

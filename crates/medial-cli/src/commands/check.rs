@@ -3,11 +3,10 @@ use crate::args::{CheckArgs, Form};
 use crate::failure::{Failure, Status};
 use crate::input::Input;
 use crate::output::Output;
-use crate::timings::{Stages, timed};
+use crate::timings::timed;
 use crate::verdicts::{Document, Judged};
 use medial_io::{Error, axis_document};
 use std::collections::BTreeMap;
-use std::time::Instant;
 
 /// `medial check`.
 pub fn run(args: &CheckArgs) -> Result<Status, Failure> {
@@ -15,7 +14,7 @@ pub fn run(args: &CheckArgs) -> Result<Status, Failure> {
         let why = "polygons and axes cannot both come from standard input; name a file";
         return Err(Failure::Usage(why.to_owned()));
     }
-    let mut run = Run { common: &args.common, start: Instant::now(), stages: Stages::default() };
+    let mut run = Run::new(&args.common)?;
     let (input, axes) =
         timed(&mut run.stages.read, || Ok((Input::read(&args.domain)?, Input::read(&args.axis)?)))?;
     let mut documents = timed(&mut run.stages.read, || read_documents(&axes))?;

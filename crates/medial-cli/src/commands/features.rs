@@ -4,6 +4,7 @@ use crate::args::{Common, OnError};
 use crate::failure::{Failure, Status};
 use crate::guard::guarded;
 use crate::input::Input;
+use crate::output::Output;
 use crate::parallel::ordered;
 use crate::progress::Progress;
 use crate::report::{self, Entry, FeatureReport, Report};
@@ -12,7 +13,7 @@ use medial::domain::{Domain, Options};
 use medial_io::{Feature, FeatureError, Json, Layer, Part};
 use std::num::NonZeroUsize;
 use std::ops::ControlFlow;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
@@ -23,6 +24,8 @@ pub struct Run<'a> {
     pub start: Instant,
     /// Time spent so far.
     pub stages: Stages,
+    report: Option<Output>,
+    timings: Option<Output>,
 }
 
 /// What became of one feature.
@@ -38,7 +41,21 @@ struct Outcome<R> {
     stages: Stages,
 }
 
-impl Run<'_> {
+impl<'a> Run<'a> {
+    /// A run that begins now; fails if the files beside its result cannot be written.
+    pub fn new(common: &'a Common) -> Result<Self, Failure> {
+        let create = |path: &Option<PathBuf>| {
+            path.as_deref().map(|path| Output::create(Some(path))).transpose()
+        };
+        Ok(Self {
+            common,
+            start: Instant::now(),
+            stages: Stages::default(),
+            report: create(&common.report)?,
+            timings: create(&common.timings)?,
+        })
+    }
+
     /// Calls `work` for each valid feature, several at once, then `done` with the results and
     /// `write` with the bytes that `work` appended, both in order; tells and reports what is left
     /// out.
@@ -97,8 +114,8 @@ impl Run<'_> {
         );
         self.stages.read += find;
         progress.finish();
-        if let Some(path) = &common.report {
-            report.write(path)?;
+        if let Some(output) = self.report.take() {
+            output.whole(report.text().as_bytes())?;
         }
         match broke {
             Some(Some(failure)) => Err(failure),
@@ -108,9 +125,9 @@ impl Run<'_> {
     }
 
     /// Writes the timings, if they are asked for.
-    pub fn finish(&self) -> Result<(), Failure> {
-        match &self.common.timings {
-            Some(path) => timings::write(path, &self.stages, self.start),
+    pub fn finish(self) -> Result<(), Failure> {
+        match self.timings {
+            Some(output) => output.whole(timings::text(&self.stages, self.start).as_bytes()),
             None => Ok(()),
         }
     }
