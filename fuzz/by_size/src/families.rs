@@ -80,7 +80,7 @@ pub const FAMILIES: [Family; 37] = [
     here("nearly_round", Ground::Doubles, 5_000, rounds::nearly_round),
     here("scales", Ground::Exact, ANY, chains::scales),
     here("thin_spiral", Ground::Doubles, ANY, chains::thin_spiral),
-    here("square_spiral", Ground::Whole, ANY, chains::square_spiral),
+    here("square_spiral", Ground::Whole, 10_000, chains::square_spiral),
     here("hairs", Ground::Exact, ANY, chains::hairs),
     here("corridor", Ground::Doubles, ANY, chains::corridor),
     here("zigzag", Ground::Whole, ANY, chains::zigzag),

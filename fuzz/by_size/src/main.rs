@@ -43,7 +43,7 @@ status is 1 if a shape has a defect, an error, a panic or no end; slow shapes ar
 const SLOW: (Duration, Duration) = (Duration::from_micros(30), Duration::from_millis(200));
 
 /// Time after which a shape counts as one without an end.
-const HANGS: Duration = Duration::from_secs(300);
+const HANGS: Duration = Duration::from_secs(120);
 
 /// Time for making a find smaller.
 const REDUCING: Duration = Duration::from_secs(60);
@@ -201,10 +201,17 @@ fn one(drawing: &Drawing, options: &Options, running: &Running, summary: &mut Su
         Outcome::Find(text) => {
             println!("FIND {name}: {pose}, regroup {regroup}\n{text}");
             keep(&file("find"), &sketch::to_wkt(&shape.polygons));
+            if let Ok(mut running) = running.lock() {
+                *running = Some((Instant::now(), format!("{name}, reducing"), shape.clone()));
+            }
             let fails = |s: &Shape| matches!(judge::judge(s, image), Outcome::Find(_));
             let small = reduce::reduce(shape, Instant::now() + REDUCING, &fails);
             keep(&file("small"), &sketch::to_wkt(&small.polygons));
-            if let Outcome::Find(text) = judge::judge(&small, image) {
+            let outcome = judge::judge(&small, image);
+            if let Ok(mut running) = running.lock() {
+                *running = None;
+            }
+            if let Outcome::Find(text) = outcome {
                 let edges: usize = small.polygons.iter().flatten().map(Vec::len).sum();
                 println!("reduced to {edges} edges in {}:\n{text}", file("small").display());
             }
