@@ -94,10 +94,8 @@ impl Traced {
         triple: [Site; 3],
         list: &[Site],
     ) -> u32 {
-        if let Some(fixed) = fixed {
-            if fixed.is_precise() {
-                return self.add(fixed.position(), fixed.radius, KeypointKind::Junction, list);
-            }
+        if let Some(fixed) = fixed.filter(|fixed| fixed.is_precise()) {
+            return self.add(fixed.position(), fixed.radius, KeypointKind::Junction, list);
         }
         let Start { centre, radius, doubt, .. } = Start::at(disk);
         let keypoint = self.add(centre, radius, KeypointKind::Junction, list);
