@@ -100,6 +100,10 @@ const MOST_TRIES: usize = 100_000;
 /// Sites that the last resort weighs before it takes in all there are.
 const WIDEST: usize = 64;
 
+/// Visits after which the tree may be sorted anew, and nodes a visit from which it is.
+const VISITS: u64 = 500;
+const NODES: u64 = 100;
+
 /// Tries before only exact arithmetic proposes.
 const FLOATING_TRIES: usize = 48;
 
@@ -107,6 +111,8 @@ const FLOATING_TRIES: usize = 48;
 pub(super) struct Search<'a> {
     pub domain: &'a Domain,
     pub tree: CapsuleTree,
+    /// Whether the tree was sorted anew.
+    mended: bool,
     /// No disk inside the polygon has a larger radius.
     pub largest: f64,
     pub rings: Option<HiddenRings>,
@@ -136,6 +142,7 @@ impl<'a> Search<'a> {
         let bounds = tree.bounds();
         Self {
             domain,
+            mended: false,
             largest: (bounds.max - bounds.min).norm(),
             tree,
             rings,
@@ -147,6 +154,20 @@ impl<'a> Search<'a> {
             behind: Vec::new(),
             tried: Vec::new(),
         }
+    }
+
+    /// Sorts the tree anew if visits have gone through too many nodes of it.
+    pub fn mend_tree(&mut self) {
+        let (nodes, visits) = self.tree.work();
+        if self.mended || visits < VISITS || nodes < NODES * visits {
+            return;
+        }
+        self.mended = true;
+        let items = self.tree.items();
+        let n_edges = items.end - items.start;
+        self.tree = CapsuleTree::along_a_curve(items.start, n_edges, |k| {
+            (self.domain.edge(k).start, self.domain.end(k))
+        });
     }
 
     /// The end of the path that leaves `start` between `right` and `left`.
@@ -312,7 +333,9 @@ impl<'a> Search<'a> {
                     }
                 }
                 Verdict::Clear(contacts) => {
-                    if self.rings.is_some() && !self.is_ahead(gap, &disk, &triple) {
+                    if self.rings.is_some()
+                        && (self.turns_back(gap, &disk) || !self.is_ahead(gap, &disk, &triple))
+                    {
                         self.banned.push(proposal.site);
                         seen.retain(|&s| s != proposal.site);
                         best = None;

@@ -184,6 +184,7 @@ impl<'a> Tracer<'a> {
         let Pending { mut keypoint, mut right, mut left, start, .. } = pending;
         let broken = |stage| EngineError::Internal { stage, place: start.centre };
         let search = self.search.as_mut().ok_or(broken("preparing the search"))?;
+        search.mend_tree();
         let chased =
             if self.care == Care::Single { None } else { search.chase(right, left, start) };
         let found = match chased {
