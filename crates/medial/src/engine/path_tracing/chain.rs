@@ -372,6 +372,9 @@ impl Search<'_> {
     ) -> Option<Proposal> {
         let mut reach = GROWTH * known;
         while end.is_none_or(|e| 2.0 * reach < e.position) && reach.is_finite() {
+            if self.watch.is_over() {
+                return None;
+            }
             let Some(disk) = gap.course(self.domain).disk_at(reach) else { break };
             if end.is_some_and(|e| disk.radius * LEAP > e.disk.radius) {
                 break;
@@ -408,6 +411,9 @@ impl Search<'_> {
         mut end: Proposal,
     ) -> Option<Found> {
         for _ in 0..MOST_ROUNDS {
+            if self.watch.is_over() {
+                return None;
+            }
             let (right, left) = self.link;
             let here = self.passed.last().map_or(anchor, |p| Start::at(&p.disk));
             let gap = Gap::new(right, left, here, front);

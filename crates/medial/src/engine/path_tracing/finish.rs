@@ -8,6 +8,7 @@ use crate::axis::{
 };
 use crate::domain::{Domain, Site};
 use crate::engine::EngineError;
+use crate::engine::watch::Watch;
 use crate::geom::{Point, TouchingDisk};
 
 /// Share of its size by which a position may be off before it is rounded: three units in the last
@@ -94,8 +95,9 @@ impl Traced {
     }
 
     /// The axis: every position computed as precisely as promised.
-    pub fn finish(mut self, domain: &Domain) -> Result<MedialAxis, EngineError> {
+    pub fn finish(mut self, domain: &Domain, watch: &Watch<'_>) -> Result<MedialAxis, EngineError> {
         for rough in &self.rough {
+            watch.check()?;
             let list: Vec<Site> = self.governors_of(rough.keypoint);
             let keypoint = &mut self.keypoints[rough.keypoint as usize];
             let (centre, radius) = (keypoint.position, keypoint.radius);

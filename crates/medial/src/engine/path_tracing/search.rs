@@ -16,6 +16,7 @@ use super::touch::{Touch, touch};
 use super::verify::{Verdict, Verify};
 use crate::domain::{Corner, Domain, Site};
 use crate::engine::EngineError;
+use crate::engine::watch::Watch;
 use crate::geom::predicates::ExactDisk;
 use crate::geom::{CapsuleTree, Governor, Point, TouchingDisk};
 
@@ -119,11 +120,12 @@ pub(super) struct Search<'a> {
     pub behind: Vec<u32>,
     /// What was tried for the last path, for those who watch.
     pub tried: Vec<Candidate>,
+    pub watch: Watch<'a>,
 }
 
 impl<'a> Search<'a> {
     /// Prepares the search in the polygon whose walks have the given numbers.
-    pub fn new(domain: &'a Domain, walks: std::ops::Range<usize>) -> Self {
+    pub fn new(domain: &'a Domain, walks: std::ops::Range<usize>, watch: Watch<'a>) -> Self {
         let first = domain.walks()[walks.start].first;
         let n: u32 = domain.walks()[walks.clone()].iter().map(|w| w.len).sum();
         let tree = CapsuleTree::new(first, n, |k| (domain.edge(k).start, domain.end(k)));
@@ -138,6 +140,7 @@ impl<'a> Search<'a> {
             tie: None,
             behind: Vec::new(),
             tried: Vec::new(),
+            watch,
         }
     }
 
@@ -155,6 +158,7 @@ impl<'a> Search<'a> {
         let mut last_hidden = None;
         // Each turn ends the path at an earlier site.
         for _ in 0..=2 * self.tree.items().len() {
+            self.watch.check()?;
             if let Found::Disk { contacts, .. } = &found
                 && let Some(behind) = contact_behind(contacts, right, left)
             {
@@ -168,6 +172,7 @@ impl<'a> Search<'a> {
             let suspects = rings.suspects(self.domain, &gap, &found);
             let hidden: Vec<Site> =
                 suspects.into_iter().filter(|&s| self.is_between(&gap, s, &found)).collect();
+            self.watch.check()?;
             if hidden.is_empty() {
                 return Ok(found);
             }
@@ -185,7 +190,8 @@ impl<'a> Search<'a> {
     }
 
     fn broken(&self, gap: &Gap) -> EngineError {
-        EngineError::Internal { stage: "tracing a path", place: gap.start.centre }
+        let place = gap.start.centre;
+        self.watch.or(EngineError::Internal { stage: "tracing a path", place })
     }
 
     /// Whether the path ends in the convex corner between its two governors.
@@ -238,6 +244,7 @@ impl<'a> Search<'a> {
         // How many of them the last resort has weighed; all there are, if the greatest number.
         let mut known = 0;
         for round in 0..MOST_TRIES {
+            self.watch.check()?;
             let Some(proposal) = best else {
                 best = self.last_resort(gap, &mut seen, &mut known)?;
                 continue;
@@ -274,9 +281,11 @@ impl<'a> Search<'a> {
                 Verdict::Cut(sites) => {
                     best = None;
                     let cutting = sites.iter().find_map(|&s| {
-                        (floating && s != proposal.site).then(|| self.propose(gap, s)).flatten()
+                        let tries = floating && s != proposal.site && !self.watch.is_over();
+                        tries.then(|| self.propose(gap, s)).flatten()
                     });
                     for s in sites {
+                        self.watch.check()?;
                         if !seen.contains(&s) {
                             seen.push(s);
                         }

@@ -3,7 +3,8 @@
 use super::search::Candidate;
 use super::tracer::Tracer;
 use crate::domain::{Domain, Site};
-use crate::engine::EngineError;
+use crate::engine::watch::Watch;
+use crate::engine::{EngineError, Options};
 use crate::geom::Point;
 
 /// One traced path, as a value to look at.
@@ -37,7 +38,7 @@ pub struct Steps<'a> {
 
 impl<'a> Steps<'a> {
     pub(super) fn new(domain: &'a Domain) -> Result<Self, EngineError> {
-        let mut tracer = Tracer::new(domain)?;
+        let mut tracer = Tracer::new(domain, Watch::new(&Options::default()))?;
         tracer.single = true;
         Ok(Self { tracer, failed: false })
     }

@@ -8,6 +8,7 @@ use super::search::{Found, Search, Start};
 use crate::axis::{KeypointKind, MedialAxis, Path};
 use crate::domain::{Corner, Domain, Site};
 use crate::engine::EngineError;
+use crate::engine::watch::Watch;
 use crate::geom::{Point, TouchingDisk};
 
 /// A path that waits to be traced.
@@ -38,10 +39,12 @@ pub(super) struct Tracer<'a> {
     pub traced: Traced,
     /// Whether every path is looked for by itself.
     pub single: bool,
+    watch: Watch<'a>,
 }
 
 impl<'a> Tracer<'a> {
-    pub fn new(domain: &'a Domain) -> Result<Self, EngineError> {
+    pub fn new(domain: &'a Domain, watch: Watch<'a>) -> Result<Self, EngineError> {
+        watch.check()?;
         let n_edges = domain.edges().len();
         if n_edges > (u32::MAX / 16) as usize {
             return Err(EngineError::TooLarge { n_edges });
@@ -65,6 +68,7 @@ impl<'a> Tracer<'a> {
             gaps: None,
             traced: Traced::default(),
             single: false,
+            watch,
         })
     }
 
@@ -108,11 +112,12 @@ impl<'a> Tracer<'a> {
                 .find(|&k| domain.edge(k).corner == Corner::Convex);
             self.seeds.extend(convex);
         }
-        self.search = Some(Search::new(domain, walks));
+        self.search = Some(Search::new(domain, walks, self.watch.clone()));
     }
 
     fn trace(&mut self, pending: Pending) -> Result<(), EngineError> {
         let Pending { mut keypoint, mut right, mut left, start, .. } = pending;
+        self.watch.check()?;
         let broken = |stage| EngineError::Internal { stage, place: start.centre };
         let search = self.search.as_mut().ok_or(broken("preparing the search"))?;
         let chased = if self.single { None } else { search.chase(right, left, start) };
@@ -206,7 +211,7 @@ impl<'a> Tracer<'a> {
 
     /// The axis: every position computed as precisely as promised.
     pub fn finish(self) -> Result<MedialAxis, EngineError> {
-        self.traced.finish(self.domain)
+        self.traced.finish(self.domain, &self.watch)
     }
 }
 

@@ -276,7 +276,7 @@ impl<'s, 'a> Verify<'s, 'a> {
             }
         }
         for &edge in &self.doubtful {
-            if !need(&mut exact) {
+            if search.watch.is_over() || !need(&mut exact) {
                 return Verdict::OffEdge;
             }
             let Some(disk) = &exact else { return Verdict::OffEdge };
