@@ -21,16 +21,18 @@ use std::time::Instant;
 /// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Options<'a> {
-    /// Threads that share the work, the calling one among them; small domains stay on that one.
+    /// Threads that share the work, the calling one among them; see `alone_below`.
     pub threads: NonZeroUsize,
     /// Set by another thread when the axis is wanted no more.
     pub cancel: Option<&'a AtomicBool>,
     /// When to give up.
     pub deadline: Option<Instant>,
+    /// Domains and polygons of fewer edges are traced by one thread alone.
+    pub alone_below: usize,
 }
 
 impl Default for Options<'_> {
     fn default() -> Self {
-        Self { threads: NonZeroUsize::MIN, cancel: None, deadline: None }
+        Self { threads: NonZeroUsize::MIN, cancel: None, deadline: None, alone_below: 10_000 }
     }
 }

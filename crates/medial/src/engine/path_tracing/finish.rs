@@ -1,5 +1,7 @@
 //! What was traced, and the axis made of it.
 
+use std::ops::Range;
+
 use super::chain::Passed;
 use super::positions::position;
 use super::search::Start;
@@ -94,9 +96,29 @@ impl Traced {
         keypoint
     }
 
+    /// Adds keypoints of other tables.
+    pub fn copy_keypoints(&mut self, other: &Self, keypoints: Range<u32>) {
+        for k in keypoints {
+            let first = self.governors.len() as u32;
+            self.governors.extend_from_slice(axis::governors(
+                &other.keypoints,
+                &other.governors,
+                k,
+            ));
+            let Keypoint { position, radius, kind, .. } = other.keypoints[k as usize];
+            self.keypoints.push(Keypoint::new(position, radius, kind, first));
+        }
+    }
+
     /// The axis: every position computed as precisely as promised.
     pub fn finish(mut self, domain: &Domain, watch: &Watch<'_>) -> Result<MedialAxis, EngineError> {
-        for rough in &self.rough {
+        self.place(domain, watch)?;
+        self.number(domain, watch)
+    }
+
+    /// Computes every position as precisely as promised.
+    pub fn place(&mut self, domain: &Domain, watch: &Watch<'_>) -> Result<(), EngineError> {
+        for rough in std::mem::take(&mut self.rough) {
             watch.check()?;
             let list: Vec<Site> = self.governors_of(rough.keypoint);
             let keypoint = &mut self.keypoints[rough.keypoint as usize];
@@ -105,7 +127,12 @@ impl Traced {
                 position(domain, &list, &rough.triple, centre, radius, rough.doubt)
                     .ok_or(EngineError::Internal { stage: "placing a keypoint", place: centre })?;
         }
-        // Sites that govern something, numbered in boundary order.
+        Ok(())
+    }
+
+    /// The axis, with the sites that govern something numbered in boundary order.
+    pub fn number(mut self, domain: &Domain, watch: &Watch<'_>) -> Result<MedialAxis, EngineError> {
+        watch.check()?;
         let mut number = vec![u32::MAX; 2 * domain.edges().len()];
         for &site in &self.governors {
             number[site as usize] = 0;

@@ -29,7 +29,9 @@ mod course;
 mod finish;
 mod front;
 mod gaps;
+mod hand;
 mod order;
+mod parallel;
 mod positions;
 mod probe;
 mod rings;
@@ -64,6 +66,9 @@ pub fn path_tracing_with(
     domain: &Domain,
     options: &Options<'_>,
 ) -> Result<MedialAxis, EngineError> {
+    if options.threads.get() > 1 && domain.edges().len() >= options.alone_below {
+        return parallel::trace(domain, options);
+    }
     let mut tracer = Tracer::new(domain, Watch::new(options))?;
     while tracer.step()? {}
     tracer.finish()

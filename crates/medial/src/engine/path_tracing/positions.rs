@@ -1,14 +1,15 @@
 //! Positions and radii of keypoints, from one fixed triple of governors.
 //!
-//! The triple depends on the governor list, and not on how the keypoint was found, so engines and
-//! orders of tracing agree; the centre found serves to weigh corners, with a margin. Newton steps
-//! with residuals in twice the precision of doubles; where their bound is too large, the exact disk
-//! is evaluated instead.
+//! The triple depends on the governor list, and not on how the keypoint was found, so engines,
+//! orders of tracing and numbers of threads agree; the centre found serves to weigh corners, with a
+//! margin. Newton steps with residuals in twice the precision of doubles; where their bound is too
+//! large, the exact disk is evaluated instead.
 
 use super::contacts::follows;
+use super::search::Start;
 use crate::domain::{Domain, Site};
 use crate::geom::predicates::ExactDisk;
-use crate::geom::{Double, Governor, Point};
+use crate::geom::{Double, Governor, Point, TouchingDisk};
 
 /// How many times the doubt about a start goes into the radius before no second disk of the same
 /// triple can be meant.
@@ -45,12 +46,17 @@ pub(super) fn position(
     let triple = best_triple(domain, list, centre).unwrap_or(*known);
     let governors = triple.map(|s| domain.governor(s));
     // Far from the start there may be another disk of the same three elements.
-    let same = |&(c, r): &(Point, f64)| {
+    let near = |c: Point, r: f64, doubt: f64| {
         (c - centre).norm() + (r - radius).abs() <= 4.0 * doubt && doubt <= r / FAR_APART
     };
-    let precise = Precise::new(&governors, centre, radius).and_then(|mut p| p.refine());
-    if let Some(precise) = precise.filter(same) {
-        return Some(precise);
+    // The steps begin at the disk that doubles find for the triple alone: where they begin may tell
+    // in the last bit.
+    let own = TouchingDisk::touching(&governors).map(|disk| Start::at(&disk));
+    if let Some(own) = own.filter(|s| near(s.centre, s.radius, doubt + s.doubt)) {
+        let precise = Precise::new(&governors, own.centre, own.radius).and_then(|mut p| p.refine());
+        if let Some((c, r)) = precise.filter(|&(c, r)| near(c, r, doubt + own.doubt)) {
+            return Some((c, r));
+        }
     }
     let exact = |t: &[Site; 3]| ExactDisk::new(t.map(|s| domain.element(s)));
     exact(&triple).or_else(|| exact(known)).map(|disk| disk.approximate())

@@ -6,6 +6,7 @@
 //! unless a whole ring lies between its disk and the one at the start ([`super::rings`]).
 
 use std::cell::OnceCell;
+use std::sync::Arc;
 
 use super::chain::Passed;
 use super::contacts::Contacts;
@@ -104,11 +105,29 @@ const WIDEST: usize = 64;
 /// Tries before only exact arithmetic proposes.
 const FLOATING_TRIES: usize = 48;
 
+/// What is known about the boundary of one polygon of a domain; several searches may share it.
+#[derive(Clone, Debug)]
+pub(super) struct Index {
+    tree: Arc<CapsuleTree>,
+    rings: Option<Arc<HiddenRings>>,
+}
+
+impl Index {
+    /// The index over the walks with the given numbers.
+    pub fn new(domain: &Domain, walks: std::ops::Range<usize>) -> Self {
+        let first = domain.walks()[walks.start].first;
+        let n: u32 = domain.walks()[walks.clone()].iter().map(|w| w.len).sum();
+        let tree = CapsuleTree::new(first, n, |k| (domain.edge(k).start, domain.end(k)));
+        let rings = HiddenRings::new(domain, walks);
+        Self { tree: Arc::new(tree), rings: rings.map(Arc::new) }
+    }
+}
+
 /// Looks for ends of paths in one polygon of a domain.
 pub(super) struct Search<'a> {
     pub domain: &'a Domain,
-    pub tree: CapsuleTree,
-    pub rings: Option<HiddenRings>,
+    pub tree: Arc<CapsuleTree>,
+    pub rings: Option<Arc<HiddenRings>>,
     pub banned: Vec<Site>,
     /// Transitions of the last path that was chased.
     pub passed: Vec<Passed>,
@@ -126,10 +145,12 @@ pub(super) struct Search<'a> {
 impl<'a> Search<'a> {
     /// Prepares the search in the polygon whose walks have the given numbers.
     pub fn new(domain: &'a Domain, walks: std::ops::Range<usize>, watch: Watch<'a>) -> Self {
-        let first = domain.walks()[walks.start].first;
-        let n: u32 = domain.walks()[walks.clone()].iter().map(|w| w.len).sum();
-        let tree = CapsuleTree::new(first, n, |k| (domain.edge(k).start, domain.end(k)));
-        let rings = HiddenRings::new(domain, walks);
+        Self::over(domain, Index::new(domain, walks), watch)
+    }
+
+    /// The same with an index that is there already.
+    pub fn over(domain: &'a Domain, index: Index, watch: Watch<'a>) -> Self {
+        let Index { tree, rings } = index;
         Self {
             domain,
             tree,

@@ -39,7 +39,7 @@ pub struct Steps<'a> {
 impl<'a> Steps<'a> {
     pub(super) fn new(domain: &'a Domain) -> Result<Self, EngineError> {
         let mut tracer = Tracer::new(domain, Watch::new(&Options::default()))?;
-        tracer.single = true;
+        tracer.hand.single = true;
         Ok(Self { tracer, failed: false })
     }
 }
@@ -51,7 +51,7 @@ impl Iterator for Steps<'_> {
         if self.failed {
             return None;
         }
-        let known = self.tracer.traced.keypoints.len();
+        let known = self.tracer.hand.traced.keypoints.len();
         match self.tracer.step() {
             Ok(false) => None,
             Err(error) => {
@@ -59,13 +59,13 @@ impl Iterator for Steps<'_> {
                 Some(Err(error))
             }
             Ok(true) => {
-                let traced = &self.tracer.traced;
+                let traced = &self.tracer.hand.traced;
                 let path = *traced.paths.last()?;
                 let disk = |k: u32| {
                     let keypoint = &traced.keypoints[k as usize];
                     (keypoint.position, keypoint.radius)
                 };
-                let search = self.tracer.search.as_ref();
+                let search = self.tracer.hand.search.as_ref();
                 Some(Ok(Step {
                     from: disk(path.from),
                     to: disk(path.to),
