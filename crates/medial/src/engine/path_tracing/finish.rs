@@ -25,6 +25,8 @@ struct Rough {
     triple: [Site; 3],
     /// Bound on the error of its position and radius.
     doubt: f64,
+    /// Whether these depend on the governors only.
+    own: bool,
 }
 
 /// Keypoints and paths, with sites by their numbers in the domain.
@@ -77,9 +79,9 @@ impl Traced {
                 return self.add(position, fixed.radius, KeypointKind::Junction, list);
             }
         }
-        let Start { centre, radius, doubt, .. } = Start::at(disk);
+        let Start { centre, radius, doubt, .. } = Start::at(fixed.unwrap_or(disk));
         let keypoint = self.add(centre, radius, KeypointKind::Junction, list);
-        self.rough.push(Rough { keypoint, triple, doubt });
+        self.rough.push(Rough { keypoint, triple, doubt, own: fixed.is_some() });
         keypoint
     }
 
@@ -123,8 +125,9 @@ impl Traced {
             let list: Vec<Site> = self.governors_of(rough.keypoint);
             let keypoint = &mut self.keypoints[rough.keypoint as usize];
             let (centre, radius) = (keypoint.position, keypoint.radius);
+            let found = Start { centre, radius, doubt: rough.doubt, triple: None };
             (keypoint.position, keypoint.radius) =
-                position(domain, &list, &rough.triple, centre, radius, rough.doubt)
+                position(domain, &list, &rough.triple, found, rough.own)
                     .ok_or(EngineError::Internal { stage: "placing a keypoint", place: centre })?;
         }
         Ok(())

@@ -33,29 +33,34 @@ const RESIDUAL_ERROR: f64 = 1.0 / (1_u128 << 90) as f64;
 
 /// Centre and radius of a keypoint, within 4 ulp of max(|x|, |y|, radius).
 ///
-/// `centre` and `radius` are a start, off by at most `doubt`; `known` is a triple that defines the
-/// disk.
+/// `found` is a start, within its bounds, and if `own` one that depends on the governors only;
+/// `known` is a triple that defines the disk.
 pub(super) fn position(
     domain: &Domain,
     list: &[Site],
     known: &[Site; 3],
-    centre: Point,
-    radius: f64,
-    doubt: f64,
+    found: Start,
+    own: bool,
 ) -> Option<(Point, f64)> {
-    let triple = best_triple(domain, list, centre).unwrap_or(*known);
+    let triple = best_triple(domain, list, found.centre).unwrap_or(*known);
     let governors = triple.map(|s| domain.governor(s));
     // Far from the start there may be another disk of the same three elements.
     let near = |c: Point, r: f64, doubt: f64| {
-        (c - centre).norm() + (r - radius).abs() <= 4.0 * doubt && doubt <= r / FAR_APART
+        (c - found.centre).norm() + (r - found.radius).abs() <= 4.0 * doubt
+            && doubt <= r / FAR_APART
     };
-    // The steps begin at the disk that doubles find for the triple alone: where they begin may tell
-    // in the last bit.
-    let own = TouchingDisk::touching(&governors).map(|disk| Start::at(&disk));
-    if let Some(own) = own.filter(|s| near(s.centre, s.radius, doubt + s.doubt)) {
-        let precise = Precise::new(&governors, own.centre, own.radius).and_then(|mut p| p.refine());
-        if let Some((c, r)) = precise.filter(|&(c, r)| near(c, r, doubt + own.doubt)) {
-            return Some((c, r));
+    // Where the steps begin may tell in the last bit: at the disk that doubles find for the triple
+    // alone.
+    let start = if own {
+        Some(found)
+    } else {
+        let start = TouchingDisk::touching(&governors).map(|disk| Start::at(&disk));
+        start.filter(|s| near(s.centre, s.radius, found.doubt + s.doubt))
+    };
+    if let Some(Start { centre, radius, doubt, .. }) = start {
+        let precise = Precise::new(&governors, centre, radius).and_then(|mut p| p.refine());
+        if let Some(precise) = precise.filter(|&(c, r)| near(c, r, found.doubt + doubt)) {
+            return Some(precise);
         }
     }
     let exact = |t: &[Site; 3]| ExactDisk::new(t.map(|s| domain.element(s)));
