@@ -66,7 +66,8 @@ impl Domain {
         }
     }
 
-    /// The domain bounded by rings that are simple, apart from one another, and well nested.
+    /// The domain bounded by rings that are simple, apart from one another, and well nested; the
+    /// order of its walks may be known.
     pub(super) fn of_rings(
         rings: Rings,
         nesting: &Nesting,

@@ -24,17 +24,19 @@ impl Outlines {
 }
 
 impl Rings<'_> {
-    /// The rings in an order in which near ones follow one another: that of the walks they make, if
-    /// they touch nowhere and there is one polygon; else along a curve all of them.
+    /// The rings in an order in which near ones follow one another: if there is one polygon, that
+    /// of the walks they make if they touch nowhere; else all of them along a curve.
     pub(super) fn order(&self) -> Vec<u32> {
-        let ring = |ring: u32| &self.rings[ring as usize];
+        let n = self.rings.len();
+        let ring = |number: u32| &self.rings[number as usize];
         if self.lone {
             let corner = |number| self.point(ring(number).first + ring(number).start());
-            return holes_along_a_curve(self.rings.len(), |_| 0, |r| ring(r).index > 0, corner);
+            holes_along_a_curve(n, |_| 0, |number| ring(number).index > 0, corner)
+        } else if n <= FEW_RINGS {
+            (0..n as u32).collect()
+        } else {
+            holes_along_a_curve(n, |_| 0, |_| true, |number| self.point(ring(number).first))
         }
-        let polygon = |number: u32| u32::from(self.rings.len() <= FEW_RINGS) * number;
-        let corner = |number| self.point(ring(number).first);
-        holes_along_a_curve(self.rings.len(), polygon, |_| true, corner)
     }
 }
 

@@ -16,6 +16,13 @@ impl Domain {
         }
     }
 
+    /// Three sites as doubles compute with them.
+    #[inline]
+    #[must_use]
+    pub fn governors(&self, [a, b, c]: [Site; 3]) -> [Governor; 3] {
+        [self.governor(a), self.governor(b), self.governor(c)]
+    }
+
     /// A site as exact predicates see it.
     #[inline]
     #[must_use]

@@ -39,6 +39,13 @@ pub enum Governor {
 }
 
 impl Governor {
+    fn end(&self) -> Point {
+        match *self {
+            Self::Corner(p) => p,
+            Self::Edge { end, .. } => end,
+        }
+    }
+
     fn anchor(&self) -> Point {
         match *self {
             Self::Corner(p) => p,
@@ -98,24 +105,30 @@ impl TouchingDisk {
         self.origin + self.centre
     }
 
+    /// Whether its position and radius, rounded, are within 4 ulp of max(|x|, |y|, radius).
+    #[inline]
+    #[must_use]
+    pub fn is_precise(&self) -> bool {
+        let position = self.position();
+        let size = position.x.abs().max(position.y.abs()).max(self.radius);
+        // Three units in the last place at most; rounding adds half a one.
+        self.bound <= 1.5 * f64::EPSILON * size
+    }
+
     /// The disk that touches three elements counterclockwise in the order given, uncertified.
     ///
     /// `near` chooses the local origin among the ends of the elements.
+    #[inline]
     #[must_use]
     pub fn guess(governors: &[Governor; 3], near: Point) -> Option<Self> {
+        Self::form(corners_first(governors), near)
+    }
+
+    /// The closed form, for governors with corners first.
+    fn form(g: [&Governor; 3], near: Point) -> Option<Self> {
         use Governor::{Corner, Edge};
-        // Rotate so that corners come first.
-        let mut g = *governors;
-        for _ in 0..2 {
-            let corner = g.map(|x| matches!(x, Corner(_)));
-            let ordered =
-                matches!(corner, [true, true, _] | [true, false, false] | [false, false, false]);
-            if !ordered {
-                g.rotate_left(1);
-            }
-        }
         let (origin, centre, radius) = match g {
-            [Corner(p), Corner(q), Corner(s)] => {
+            [&Corner(p), &Corner(q), &Corner(s)] => {
                 let (a, b) = (q - p, s - p);
                 let d = 2.0 * a.cross(b);
                 if d <= 0.0 {
@@ -125,13 +138,13 @@ impl TouchingDisk {
                 let c = Point::new((b.y * a2 - a.y * b2) / d, (a.x * b2 - b.x * a2) / d);
                 (p, c, c.norm())
             }
-            [Corner(p), Corner(q), Edge { start, end, direction }] => {
+            [&Corner(p), &Corner(q), &Edge { start, end, direction }] => {
                 two_corners_and_edge(p, q, start, end, direction)?
             }
             [
-                Corner(p),
-                Edge { start: a1, end: b1, direction: t1 },
-                Edge { start: a2, end: b2, direction: t2 },
+                &Corner(p),
+                &Edge { start: a1, end: b1, direction: t1 },
+                &Edge { start: a2, end: b2, direction: t2 },
             ] => {
                 let (h1, h2) = (height(p, a1, b1, t1).max(0.0), height(p, a2, b2, t2).max(0.0));
                 let (c12, g12) = (t1.cross(t2), t1.dot(t2));
@@ -151,10 +164,50 @@ impl TouchingDisk {
                 let along = (h1 * (2.0 * r - h1)).max(0.0).sqrt();
                 (p, t1.perp() * (r - h1) + t1 * (k * along), r)
             }
-            _ => three_edges(&g, near)?,
+            [
+                &Edge { start: a, end: b, direction: t },
+                &Edge { start: c, end: d, direction: u },
+                &Edge { start: e, end: f, direction: v },
+            ] => three_edges([a, b, c, d, e, f], [t, u, v], near)?,
+            _ => return None,
         };
         let sound = centre.x.is_finite() && centre.y.is_finite() && radius.is_finite();
         (sound && radius > 0.0).then_some(Self { origin, centre, radius, bound: f64::INFINITY })
+    }
+
+    /// The disk that touches two edges beside their convex corner `v`, and a third element beyond,
+    /// uncertified. `incoming` and `outgoing` are the directions of the edges.
+    #[inline]
+    #[must_use]
+    pub fn in_corner(v: Point, incoming: Point, outgoing: Point, other: &Governor) -> Option<Self> {
+        // The centre of radius r is v + k r.
+        let (sine, cosine) = (incoming.cross(outgoing), incoming.dot(outgoing));
+        let k = if cosine > 0.0 {
+            (incoming + outgoing).perp() * (1.0 / (1.0 + cosine))
+        } else {
+            (outgoing - incoming) * (1.0 / sine)
+        };
+        let radius = match *other {
+            Governor::Corner(q) => {
+                // The smaller root: the corner lies beyond both contacts.
+                let w = q - v;
+                let (square, along) = (w.norm2(), k.dot(w));
+                let rest = along * along - (k.norm2() - 1.0) * square;
+                if along <= 0.0 || rest < 0.0 {
+                    return None;
+                }
+                square / (along + rest.sqrt())
+            }
+            Governor::Edge { start, direction, .. } => {
+                let h = direction.cross(v - start);
+                if h <= 0.0 {
+                    return None;
+                }
+                h / (1.0 - direction.cross(k))
+            }
+        };
+        let sound = radius > 0.0 && radius.is_finite();
+        sound.then_some(Self { origin: v, centre: k * radius, radius, bound: f64::INFINITY })
     }
 
     /// The certified disk that touches three elements counterclockwise in the order given.
@@ -169,39 +222,62 @@ impl TouchingDisk {
             else {
                 return None;
             };
-            return Self::on_normal(v, direction, &governors[other]).ok().flatten();
+            return Self::on_normal(v, direction, &governors[other], f64::INFINITY).ok().flatten();
         }
-        let least = |k: usize| governors[k].anchor();
-        let first = (1..3)
-            .fold(0, |best, k| if least(k).lexicographic(least(best)).is_lt() { k } else { best });
-        let mut turned = *governors;
-        turned.rotate_left(first);
-        let mut disk = Self::guess(&turned, least(first))?;
-        if turned.iter().all(|g| matches!(g, Governor::Edge { .. })) {
+        let [a, b, c] = corners_first(governors);
+        let g = match (a, c) {
+            // One kind only: the rotation is chosen by the places.
+            (Governor::Corner(_), Governor::Corner(_))
+            | (Governor::Edge { .. }, Governor::Edge { .. }) => {
+                let least = |x: &Governor, y: &Governor| {
+                    x.anchor()
+                        .lexicographic(y.anchor())
+                        .then(x.end().lexicographic(y.end()))
+                        .is_le()
+                };
+                if least(a, b) && least(a, c) {
+                    [a, b, c]
+                } else if least(b, c) {
+                    [b, c, a]
+                } else {
+                    [c, a, b]
+                }
+            }
+            _ => [a, b, c],
+        };
+        let mut disk = Self::form(g, g[0].anchor())?;
+        if let [
+            &Governor::Edge { start: a, end: b, .. },
+            &Governor::Edge { start: c, end: d, .. },
+            &Governor::Edge { start: e, end: f, .. },
+        ] = g
+        {
             // The nearest end is the best origin.
             let centre = disk.position();
             let mut nearest = f64::INFINITY;
-            for governor in &turned {
-                let Governor::Edge { start, end, .. } = *governor else { continue };
-                for p in [start, end] {
-                    let distance = (p - centre).norm2();
-                    if distance < nearest {
-                        (nearest, disk.origin) = (distance, p);
-                    }
+            for p in [a, b, c, d, e, f] {
+                let distance = (p - centre).norm2();
+                if distance < nearest {
+                    (nearest, disk.origin) = (distance, p);
                 }
             }
             disk.centre = centre - disk.origin;
         }
-        disk.certified(&turned)
+        disk.certify(g)
     }
 
     /// The certified disk with its centre on the normal at `v` of an edge that ends there, touching
-    /// one more element; `Ok(None)` if there certainly is none.
+    /// one more element; `Ok(None)` if there certainly is none of at most the `largest` radius.
     ///
     /// # Errors
     /// [`Unsure`] where doubles cannot tell.
     #[inline]
-    pub fn on_normal(v: Point, direction: Point, other: &Governor) -> Result<Option<Self>, Unsure> {
+    pub fn on_normal(
+        v: Point,
+        direction: Point,
+        other: &Governor,
+        largest: f64,
+    ) -> Result<Option<Self>, Unsure> {
         let normal = direction.perp();
         let (radius, error) = match *other {
             Governor::Corner(w) => {
@@ -212,7 +288,9 @@ impl TouchingDisk {
                 // Each component of the normal is off by at most 4u, w by u of its own.
                 let share = 12.0 * U * square.sqrt() / along;
                 if along.is_nan() || along <= 0.0 || share > 0.125 {
-                    return if -along > 12.0 * U * square.sqrt() { Ok(None) } else { Err(Unsure) };
+                    let most = along + 12.0 * U * square.sqrt();
+                    let none = most < 0.0 || square > 2.0 * most * largest;
+                    return if none { Ok(None) } else { Err(Unsure) };
                 }
                 (radius, radius * (2.0 * share + 8.0 * U))
             }
@@ -232,13 +310,17 @@ impl TouchingDisk {
                     (square / 2.0, 16.0 * U * square.sqrt())
                 };
                 if h.is_nan() || h <= 0.0 || g <= 2.0 * g_error {
-                    return if -h > h_error { Ok(None) } else { Err(Unsure) };
+                    let none = -h > h_error || h - h_error > (g + g_error) * largest;
+                    return if none { Ok(None) } else { Err(Unsure) };
                 }
                 let radius = h / g;
                 let error = (h_error + radius * (g_error + 4.0 * U * g)) / (g - g_error);
                 (radius, error)
             }
         };
+        if radius - error > largest {
+            return Ok(None);
+        }
         let bound = 2.0 * error + 16.0 * U * radius;
         let disk = Self { origin: v, centre: normal * radius, radius, bound };
         if radius > 0.0 && bound < radius && radius.is_finite() {
@@ -258,6 +340,11 @@ impl TouchingDisk {
                 &governors[other],
             );
         }
+        self.certify([&governors[0], &governors[1], &governors[2]])
+    }
+
+    /// The same for governors none of which ends at another one.
+    fn certify(&self, governors: [&Governor; 3]) -> Option<Self> {
         let mut disk = *self;
         let mut step = f64::INFINITY;
         for _ in 0..4 {
@@ -302,13 +389,13 @@ impl TouchingDisk {
     }
 
     /// Normal, residual `distance - r` and its rounding error for each governor.
-    fn residuals(&self, governors: &[Governor; 3]) -> Option<[(Point, f64, f64); 3]> {
-        let mut out = [(Point::default(), 0.0, 0.0); 3];
-        for (g, slot) in governors.iter().zip(&mut out) {
+    #[inline]
+    fn residuals(&self, governors: [&Governor; 3]) -> Option<[(Point, f64, f64); 3]> {
+        let of = |g: &Governor| {
             let (n, distance, error) = self.distance(g)?;
-            *slot = (n, distance - self.radius, error);
-        }
-        Some(out)
+            Some((n, distance - self.radius, error))
+        };
+        Some([of(governors[0])?, of(governors[1])?, of(governors[2])?])
     }
 
     /// Unit normal towards the centre, distance and error bound of the residual.
@@ -378,6 +465,17 @@ impl TouchingDisk {
     }
 }
 
+/// The governors turned so that corners come first.
+#[inline]
+fn corners_first([a, b, c]: &[Governor; 3]) -> [&Governor; 3] {
+    let is_corner = |g: &Governor| matches!(g, Governor::Corner(_));
+    match (is_corner(a), is_corner(b), is_corner(c)) {
+        (false, true, _) => [b, c, a],
+        (true, false, true) | (false, false, true) => [c, a, b],
+        _ => [a, b, c],
+    }
+}
+
 /// Positions of an edge, a corner that ends it, and the third element.
 fn touching_end(governors: &[Governor; 3]) -> Option<(usize, usize, usize)> {
     for corner in 0..3 {
@@ -419,15 +517,7 @@ fn two_corners_and_edge(
     Some((p, t * x + t.perp() * (r - hp), r))
 }
 
-fn three_edges(g: &[Governor; 3], near: Point) -> Option<(Point, Point, f64)> {
-    let mut t = [Point::default(); 3];
-    let mut ends = [Point::default(); 6];
-    for k in 0..3 {
-        let Governor::Edge { start, end, direction } = g[k] else { return None };
-        t[k] = direction;
-        ends[2 * k] = start;
-        ends[2 * k + 1] = end;
-    }
+fn three_edges(ends: [Point; 6], t: [Point; 3], near: Point) -> Option<(Point, Point, f64)> {
     let mut origin = ends[0];
     let mut best = f64::INFINITY;
     for &end in &ends {

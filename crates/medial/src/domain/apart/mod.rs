@@ -8,15 +8,17 @@
 //!
 //! # Method
 //! A tree of boxes over runs of edges is joined with itself: only edges with meeting boxes are
-//! compared, exactly. A run that is monotone along an axis cannot meet itself. Where axis-parallel
-//! boxes meet too many others, boxes in the direction of the runs are tried: they separate long
-//! edges side by side, as in a star of needles. Nesting then follows from the edge right below the
-//! first vertex of a ring in lexicographic order, found in the same tree; and rings joined by a
-//! link that meets no edge, which the join finds out on the way, have the same around them.
+//! compared, exactly. Where axis-parallel boxes meet too many others, strips in the direction of
+//! the runs are tried: they separate long edges side by side, as in a star of needles. Nesting then
+//! follows from the edge right below the first vertex of a ring in lexicographic order, found in
+//! the same tree; and rings joined by a link that meets no edge, which the join finds out on the
+//! way, have the same around them.
 //!
 //! # Departures
-//! The two sides of an edge differ, and those of all edges of a ring differ alike, since nothing
-//! touches: one comparison a ring says whether the interior is on the left everywhere, where the
+//! Boundary order takes the place of a sort: consecutive edges are near each other, whatever the
+//! shape. Boxes are kept in single precision; the map to it keeps the order of coordinates, so no
+//! pair is missed, and what it cannot tell apart is only compared for nothing. Since nothing
+//! touches, one comparison a ring says whether the interior is on the left everywhere, where the
 //! sweep makes one at each edge that starts.
 
 mod below;

@@ -202,3 +202,46 @@ fn a_ring_lies_above_the_nearest_of_two_edges_from_one_corner() {
     assert_eq!(nesting.around, [Around::Nothing, Around::Inside(0)]);
     assert_eq!(agrees(&polygons, false), (true, true));
 }
+
+#[test]
+fn a_lattice_of_holes_is_apart_until_one_of_them_grows() {
+    let diamond = |x: f64, y: f64, r: f64| {
+        [(r, 0.0), (0.0, -r), (-r, 0.0), (0.0, r)].map(|(a, b)| Point::new(x + a, y + b)).to_vec()
+    };
+    let side = 30;
+    let end = f64::from(10 * side);
+    let square = [(0.0, 0.0), (end, 0.0), (end, end), (0.0, end)];
+    // With radius 6, a diamond reaches its neighbours of radius 4 ten units away.
+    for (radius, apart) in [(4.0, true), (5.0, true), (6.0, false)] {
+        let mut rings = vec![square.map(|(x, y)| Point::new(x, y)).to_vec()];
+        for k in 0..side * side {
+            let (x, y) = (10 * (k % side) + 5, 10 * (k / side) + 5);
+            let r = if k == 433 { radius } else { 4.0 };
+            rings.push(diamond(f64::from(x), f64::from(y), r));
+        }
+        assert_eq!(agrees(&[rings.clone()], false), (apart, apart));
+        // Each as a polygon of its own, in the face of a ring around all of them.
+        let polygons: Vec<_> = rings.into_iter().skip(1).map(|ring| vec![ring]).collect();
+        assert_eq!(agrees(&polygons, false), (apart, apart));
+    }
+}
+
+#[test]
+fn rings_too_small_for_single_precision_are_told_apart() {
+    let large = 2f64.powi(60);
+    let square = |x: f64, y: f64, r: f64| {
+        [(-r, -r), (r, -r), (r, r), (-r, r)].map(|(a, b)| Point::new(x + a, y + b)).to_vec()
+    };
+    for shift in [0.0, 1.0] {
+        let mut rings = vec![square(0.0, 0.0, large)];
+        for k in 0..100 {
+            let (x, y) = (f64::from(k % 10) * 8.0, f64::from(k / 10) * 8.0);
+            // Three units on each side: two apart, or one.
+            rings.push(square(x + f64::from(k % 2) * shift, y, 3.0));
+        }
+        assert_eq!(agrees(&[rings.clone()], false), (true, true));
+        // Now one around another reaches the neighbours of that.
+        rings[34] = square(16.0, 16.0, 5.0);
+        assert!(!agrees(&[rings], false).0);
+    }
+}

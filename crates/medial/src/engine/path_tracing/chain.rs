@@ -23,7 +23,7 @@ use std::cmp::Ordering;
 use super::contacts::follows;
 use super::front::Front;
 use super::rings::{Link, Round};
-use super::search::{Found, Gap, Proposal, Search, Start, contact_behind};
+use super::search::{Found, Gap, Proposal, SLACK, Search, Start, contact_behind, rounded};
 use super::verify::{Verdict, Verify, cuts_clearly};
 use crate::domain::{Corner, Edge, Site};
 use crate::geom::{Point, TouchingDisk, Unsure};
@@ -42,6 +42,9 @@ const LEAP: f64 = 4.0;
 
 /// Elements to either side of one that was met beyond its end that are proposed instead.
 const FEW: usize = 4;
+
+/// Way, in lengths of the edges there, beyond which the next elements are tried as well.
+const FAR: f64 = 3.0;
 
 /// Disks looked into before the path is left to exact arithmetic.
 const MOST_ROUNDS: usize = 64;
@@ -124,7 +127,11 @@ impl Search<'_> {
                 return self.is_open(r, l, start, end).then_some(Found::Corner(l.index()));
             }
             let gap = Gap::new(r, l, here, front);
-            let event = self.next_event(&gap).ok()?;
+            let event = self.next_event(&gap);
+            if event.is_err() && self.passed.is_empty() {
+                return None;
+            }
+            let event = event.unwrap_or(None);
             let cut = |disk: &TouchingDisk| {
                 self.behind.iter().any(|&e| {
                     let edge = self.domain.edge(e);
@@ -144,6 +151,7 @@ impl Search<'_> {
             if let Some(Event::Leave { disk, site }) = event
                 && radius <= GROWTH * known
                 && self.passed.len() < LONGEST
+                && self.look_ahead(&gap, &disk).is_none()
             {
                 (r, l) = self.pass(r, l, disk, site);
                 here = Start::at(&disk);
@@ -158,8 +166,44 @@ impl Search<'_> {
             if radius > LEAP * known {
                 end = self.approach(start, &gap, end, known);
             }
+            if let Some(Proposal { disk, .. }) = end
+                && self.link == (gap.right, gap.left)
+                && let Some(nearer) = self.look_ahead(&gap, &disk)
+            {
+                end = Some(nearer);
+            }
             return self.settle_chain(start, front, end?);
         }
+    }
+
+    /// Where a disk of the path is many edges away, a nearer one that the next elements of the
+    /// boundary propose.
+    #[inline]
+    fn look_ahead(&self, gap: &Gap, disk: &TouchingDisk) -> Option<Proposal> {
+        let length = |s: Site| self.domain.edge(s.index()).length;
+        let local = length(gap.right).min(length(gap.left));
+        let way = disk.centre + (disk.origin - gap.start.centre);
+        let far = way.norm2() > (FAR * local) * (FAR * local);
+        if far { self.next_elements(gap, disk) } else { None }
+    }
+
+    fn next_elements(&self, gap: &Gap, disk: &TouchingDisk) -> Option<Proposal> {
+        let mut nearest = gap.course(self.domain).position(disk);
+        let mut best = None;
+        let (mut ahead, mut behind) = (gap.right, gap.left);
+        for _ in 0..FEW {
+            (ahead, behind) = (self.domain.ahead(ahead), self.domain.behind(behind));
+            for site in [ahead, behind] {
+                if let Some(p) = self.propose(gap, site)
+                    && p.position < nearest * (1.0 - SLACK)
+                    && p.position > 0.0
+                {
+                    nearest = p.position;
+                    best = Some(p);
+                }
+            }
+        }
+        best
     }
 
     fn ending_right(&self, r: Site) -> Option<Ending> {
@@ -205,14 +249,27 @@ impl Search<'_> {
     fn leave(&self, normal: Normal, other: Site) -> Result<Option<Event>, Unsure> {
         let direction = self.domain.edge(normal.edge).direction;
         let other = self.domain.governor(other);
-        let disk = TouchingDisk::on_normal(normal.at, direction, &other)?;
+        let disk = TouchingDisk::on_normal(normal.at, direction, &other, self.largest)?;
         Ok(disk.map(|disk| Event::Leave { disk, site: normal.site }))
     }
 
-    /// The disk that meets the edge beyond a convex corner, if it lies ahead.
-    fn meet(&mut self, gap: &Gap, edge: u32) -> Option<Event> {
+    /// A proposal for the disk that meets the edge beyond a convex corner at an end of the right
+    /// governor, or of the left one, if it lies ahead.
+    fn meet(&mut self, gap: &Gap, edge: u32, on_right: bool) -> Option<Event> {
+        let beyond = self.domain.edge(edge);
+        let (v, incoming, outgoing, other) = if on_right {
+            let before = self.domain.edge(gap.right.index());
+            (beyond.start, before.direction, beyond.direction, gap.left)
+        } else {
+            let after = self.domain.edge(gap.left.index());
+            (after.start, beyond.direction, after.direction, gap.right)
+        };
         let site = Site::edge(edge);
-        let disk = TouchingDisk::touching(&gap.triple(site).map(|s| self.domain.governor(s)))?;
+        let other = self.domain.governor(other);
+        let disk = TouchingDisk::in_corner(v, incoming, outgoing, &other)?;
+        if disk.radius > self.largest {
+            return None;
+        }
         let ahead = gap.course(self.domain).position(&disk) > 0.0;
         if !ahead {
             self.behind.push(edge);
@@ -229,12 +286,14 @@ impl Search<'_> {
         disk: &TouchingDisk,
         side: f64,
     ) -> Result<Reach, Unsure> {
+        // A proposal will be looked into, so its order needs no proof.
+        let bound = if disk.bound.is_finite() { disk.bound } else { SLACK * disk.radius };
         let along = |edge: &Edge, p: Point| {
             let a = p - disk.origin;
             let q = disk.centre - a;
             let x = edge.direction.dot(q);
             let size = 16.0 * (q.x.abs() + q.y.abs()) + a.x.abs() + a.y.abs() + 2.0 * disk.radius;
-            (side * x, disk.bound + U * size)
+            (side * x, bound + U * size)
         };
         let (x, doubt) = along(self.domain.edge(normal.edge), normal.at);
         if x > doubt {
@@ -253,11 +312,24 @@ impl Search<'_> {
         if y < -back_doubt {
             return Err(Unsure);
         }
-        if !governor.is_edge() && !self.turns(gap, normal.at, disk, side) {
-            // The zone was left on the way and entered anew from behind.
-            return Ok(Reach::Past);
+        if !self.advances(gap, disk, side) {
+            // A corner's zone was left on the way and entered anew from behind.
+            return if governor.is_edge() { Err(Unsure) } else { Ok(Reach::Past) };
         }
         Ok(if x < -doubt { Reach::Within } else { Reach::Level })
+    }
+
+    /// Whether the footpoint of a governor moves on to a disk as it must.
+    fn advances(&self, gap: &Gap, disk: &TouchingDisk, side: f64) -> bool {
+        let governor = if side > 0.0 { gap.right } else { gap.left };
+        let edge = self.domain.edge(governor.index());
+        if !governor.is_edge() {
+            return self.turns(gap, edge.start, disk, side);
+        }
+        let step = disk.centre + (disk.origin - gap.start.centre);
+        let size = step.x.abs() + step.y.abs() + gap.start.radius + disk.radius;
+        let bound = if disk.bound.is_finite() { disk.bound } else { SLACK * disk.radius };
+        side * edge.direction.dot(step) >= -(bound + gap.start.doubt + 16.0 * U * size)
     }
 
     /// Whether the spoke of a corner turns on the way to a disk as it must, by less than half a turn:
@@ -267,7 +339,8 @@ impl Search<'_> {
         let to = disk.centre + (disk.origin - corner);
         let turn = side * from.cross(to);
         let sizes = (from.x.abs() + from.y.abs(), to.x.abs() + to.y.abs());
-        let doubt = gap.start.doubt + disk.bound + 8.0 * U * (sizes.0 + sizes.1);
+        let bound = if disk.bound.is_finite() { disk.bound } else { SLACK * disk.radius };
+        let doubt = gap.start.doubt + bound + 8.0 * U * (sizes.0 + sizes.1);
         let doubt = 2.0 * doubt * (sizes.0 + sizes.1);
         turn < -doubt || turn <= doubt && from.dot(to) > 0.0
     }
@@ -280,7 +353,7 @@ impl Search<'_> {
         let endings = self.ending_right(r).zip(self.ending_left(l)).ok_or(Unsure)?;
         let (edge, normal, other, side) = match endings {
             (Ending::Turn { edge: e }, Ending::Turn { edge: f }) => {
-                let (a, b) = (self.meet(gap, e), self.meet(gap, f));
+                let (a, b) = (self.meet(gap, e, true), self.meet(gap, f, false));
                 let position = |e: &Event| gap.course(self.domain).position(e.disk());
                 return Ok(match (a, b) {
                     (Some(a), Some(b)) => Some(if position(&b) < position(&a) { b } else { a }),
@@ -293,9 +366,14 @@ impl Search<'_> {
             (Ending::Turn { edge }, Ending::Normal(normal)) => (edge, normal, r, -1.0),
             (Ending::Normal(normal), Ending::Turn { edge }) => (edge, normal, l, 1.0),
         };
-        let Some(meet) = self.meet(gap, edge) else { return self.leave(normal, other) };
+        // The one that turns stays while the other one leaves.
+        let leave = |this: &Self| {
+            let event = this.leave(normal, other)?;
+            Ok(event.filter(|e| this.advances(gap, e.disk(), -side)))
+        };
+        let Some(meet) = self.meet(gap, edge, side < 0.0) else { return leave(self) };
         Ok(match self.reach(gap, normal, meet.disk(), side)? {
-            Reach::Past => Some(self.leave(normal, other)?.ok_or(Unsure)?),
+            Reach::Past => Some(leave(self)?.ok_or(Unsure)?),
             Reach::Within | Reach::Level => Some(meet),
         })
     }
@@ -357,7 +435,7 @@ impl Search<'_> {
     /// The disk of two runs of two sites that face each other: the same from either side.
     fn facing(&self, one: &[Site; 2], other: &[Site; 2]) -> Option<TouchingDisk> {
         let (run, third) = if one[0] < other[0] { (one, other[0]) } else { (other, one[0]) };
-        let governors = [run[0], run[1], third].map(|s| self.domain.governor(s));
+        let governors = self.domain.governors([run[0], run[1], third]);
         TouchingDisk::touching(&governors)
     }
 
@@ -410,6 +488,8 @@ impl Search<'_> {
         front: Option<Front>,
         mut end: Proposal,
     ) -> Option<Found> {
+        // The exact disk of the proposal, where only exact arithmetic made it.
+        let mut exact = None;
         for _ in 0..MOST_ROUNDS {
             if self.watch.is_over() {
                 return None;
@@ -418,10 +498,11 @@ impl Search<'_> {
             let here = self.passed.last().map_or(anchor, |p| Start::at(&p.disk));
             let gap = Gap::new(right, left, here, front);
             let triple = gap.triple(end.site);
+            let by_form = exact.is_none();
             let disk = if end.disk.bound.is_finite() {
                 end.disk
             } else {
-                let governors = triple.map(|s| self.domain.governor(s));
+                let governors = self.domain.governors(triple);
                 match TouchingDisk::touching(&governors) {
                     Some(d) => d,
                     None => {
@@ -433,7 +514,7 @@ impl Search<'_> {
             let mut verify = Verify::certified(self, &gap, start, triple, disk, true);
             verify.run();
             let link = verify.link();
-            match verify.verdict(None) {
+            match verify.verdict(exact.take()) {
                 Verdict::Better(next) => {
                     self.go_back(link);
                     end = next;
@@ -449,6 +530,8 @@ impl Search<'_> {
                     }
                     self.link = (right, left);
                     if self.rings.is_some() {
+                        let here = self.passed.last().map_or(anchor, |p| Start::at(&p.disk));
+                        let gap = Gap::new(right, left, here, front);
                         let slack = 1e-6 * (disk.radius + here.radius) + disk.bound + here.doubt;
                         if gap.course(self.domain).position(&disk) <= slack
                             || contact_behind(&contacts, right, left).is_some()
@@ -457,7 +540,8 @@ impl Search<'_> {
                             return None;
                         }
                     }
-                    return Some(Found::Disk { disk, triple, contacts });
+                    let fixed = contacts.len() == 3 && by_form;
+                    return Some(Found::Disk { disk, triple, contacts, fixed });
                 }
                 Verdict::OffEdge => {
                     self.banned.push(end.site);
@@ -467,6 +551,12 @@ impl Search<'_> {
                             return None;
                         }
                     }
+                }
+                Verdict::Earlier(site) if self.may_be_third(&gap, site) => {
+                    let smaller = self.exact(&gap.triple(site))?;
+                    let disk = rounded(&smaller, self.domain.edge(site.index()).start);
+                    end = Proposal { site, disk, position: 0.0 };
+                    exact = Some(smaller);
                 }
                 Verdict::Cut(_) | Verdict::Earlier(_) => return None,
             }
@@ -497,7 +587,7 @@ impl Search<'_> {
 
     /// Whether no ring can lie in the pocket of the path passed and one more piece.
     fn is_open(&self, r: Site, l: Site, anchor: Start, end: Round) -> bool {
-        let Some(rings) = &self.rings else { return true };
+        let Some(rings) = self.rings.as_ref().filter(|_| self.careful) else { return true };
         let first = Round {
             centre: anchor.centre,
             off: Point::default(),

@@ -13,10 +13,6 @@ use crate::engine::EngineError;
 use crate::engine::watch::Watch;
 use crate::geom::{Point, TouchingDisk};
 
-/// Share of its size by which a position may be off before it is rounded: three units in the last
-/// place of the four that are promised, at most.
-const PRECISE: f64 = 1.5 * f64::EPSILON;
-
 /// A keypoint that must be placed more precisely.
 #[derive(Clone, Copy, Debug)]
 struct Rough {
@@ -38,7 +34,33 @@ pub(super) struct Traced {
     rough: Vec<Rough>,
 }
 
+/// How much was traced at some moment.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Mark {
+    keypoints: usize,
+    governors: usize,
+    paths: usize,
+    rough: usize,
+}
+
 impl Traced {
+    pub fn mark(&self) -> Mark {
+        Mark {
+            keypoints: self.keypoints.len(),
+            governors: self.governors.len(),
+            paths: self.paths.len(),
+            rough: self.rough.len(),
+        }
+    }
+
+    /// Forgets what was traced since.
+    pub fn go_back(&mut self, mark: Mark) {
+        self.keypoints.truncate(mark.keypoints);
+        self.governors.truncate(mark.governors);
+        self.paths.truncate(mark.paths);
+        self.rough.truncate(mark.rough);
+    }
+
     /// Whether a keypoint has these governors, from the smallest one on.
     pub fn has_governors(&self, keypoint: u32, list: &[Site]) -> bool {
         let own = axis::governors(&self.keypoints, &self.governors, keypoint);
@@ -73,10 +95,8 @@ impl Traced {
         list: &[Site],
     ) -> u32 {
         if let Some(fixed) = fixed {
-            let position = fixed.position();
-            let size = position.x.abs().max(position.y.abs()).max(fixed.radius);
-            if fixed.bound <= PRECISE * size {
-                return self.add(position, fixed.radius, KeypointKind::Junction, list);
+            if fixed.is_precise() {
+                return self.add(fixed.position(), fixed.radius, KeypointKind::Junction, list);
             }
         }
         let Start { centre, radius, doubt, .. } = Start::at(fixed.unwrap_or(disk));

@@ -72,14 +72,21 @@ impl<'a> Hand<'a> {
         self.traced.add(edge.start, 0.0, KeypointKind::End, &[a.min(b), a.max(b)])
     }
 
-    pub fn add_keypoint(&mut self, disk: &TouchingDisk, triple: [Site; 3], list: &[Site]) -> u32 {
-        let governors = |sites: [Site; 3]| sites.map(|s| self.domain.governor(s));
+    /// Adds a keypoint with these governors; `fixed` tells whether its disk depends on them only.
+    pub fn add_keypoint(
+        &mut self,
+        disk: &TouchingDisk,
+        triple: [Site; 3],
+        list: &[Site],
+        fixed: bool,
+    ) -> u32 {
         // The position depends on the governors only, not on how the keypoint was found.
-        let fixed = match *list {
-            [a, b, c] => TouchingDisk::touching(&governors([a, b, c])),
+        let own = match *list {
+            _ if fixed => Some(*disk),
+            [a, b, c] => TouchingDisk::touching(&self.domain.governors([a, b, c])),
             _ => None,
         };
-        self.traced.add_disk(fixed.as_ref(), disk, triple, list)
+        self.traced.add_disk(own.as_ref(), disk, triple, list)
     }
 
     /// What a keypoint with these openings is.

@@ -43,7 +43,7 @@ pub(super) fn position(
     own: bool,
 ) -> Option<(Point, f64)> {
     let triple = best_triple(domain, list, found.centre).unwrap_or(*known);
-    let governors = triple.map(|s| domain.governor(s));
+    let governors = domain.governors(triple);
     // Far from the start there may be another disk of the same three elements.
     let near = |c: Point, r: f64, doubt: f64| {
         (c - found.centre).norm() + (r - found.radius).abs() <= 4.0 * doubt
@@ -51,11 +51,18 @@ pub(super) fn position(
     };
     // Where the steps begin may tell in the last bit: at the disk that doubles find for the triple
     // alone.
-    let start = if own {
+    let start = if own && list.len() == 3 {
         Some(found)
     } else {
-        let start = TouchingDisk::touching(&governors).map(|disk| Start::at(&disk));
-        start.filter(|s| near(s.centre, s.radius, found.doubt + s.doubt))
+        let disk = TouchingDisk::touching(&governors);
+        let start = disk.map(|disk| Start::at(&disk));
+        let start = start.filter(|s| near(s.centre, s.radius, found.doubt + s.doubt));
+        if let (Some(disk), Some(_)) = (disk, start)
+            && disk.is_precise()
+        {
+            return Some((disk.position(), disk.radius));
+        }
+        start
     };
     if let Some(Start { centre, radius, doubt, .. }) = start {
         let precise = Precise::new(&governors, centre, radius).and_then(|mut p| p.refine());

@@ -136,7 +136,7 @@ impl Search<'_> {
         ];
         let mut first: Option<(TouchingDisk, f64)> = None;
         for site in corners.into_iter().flatten() {
-            let governors = gap.triple(site).map(|s| self.domain.governor(s));
+            let governors = self.domain.governors(gap.triple(site));
             let Some(disk) = TouchingDisk::guess(&governors, gap.start.centre) else { continue };
             let position = gap.course(self.domain).position(&disk);
             if position > 0.0 && first.is_none_or(|f| position < f.1) {

@@ -49,8 +49,8 @@ pub(super) enum Found {
     /// In the convex corner at the start of this edge.
     Corner(u32),
     /// At a keypoint: its disk, three sites that define it, and all its governors in
-    /// counterclockwise order.
-    Disk { disk: TouchingDisk, triple: [Site; 3], contacts: Contacts },
+    /// counterclockwise order; whether the disk is fixed by them, and not by the way it was found.
+    Disk { disk: TouchingDisk, triple: [Site; 3], contacts: Contacts, fixed: bool },
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -127,8 +127,13 @@ impl Index {
 pub(super) struct Search<'a> {
     pub domain: &'a Domain,
     pub tree: Arc<CapsuleTree>,
+    /// No disk inside the polygon has a larger radius.
+    pub largest: f64,
     pub rings: Option<Arc<HiddenRings>>,
     pub banned: Vec<Site>,
+    /// Whether every piece of a path is searched for whole rings, and not only counted on in the end
+    /// that every ring governs something.
+    pub careful: bool,
     /// Transitions of the last path that was chased.
     pub passed: Vec<Passed>,
     /// Governors of the piece of it that was looked at last.
@@ -151,11 +156,14 @@ impl<'a> Search<'a> {
     /// The same with an index that is there already.
     pub fn over(domain: &'a Domain, index: Index, watch: Watch<'a>) -> Self {
         let Index { tree, rings } = index;
+        let bounds = tree.bounds();
         Self {
             domain,
+            largest: (bounds.max - bounds.min).norm(),
             tree,
             rings,
             banned: Vec::new(),
+            careful: false,
             passed: Vec::new(),
             link: (Site(0), Site(0)),
             tie: None,
@@ -228,7 +236,7 @@ impl<'a> Search<'a> {
         if !self.may_be_third(gap, site) {
             return None;
         }
-        let governors = gap.triple(site).map(|s| self.domain.governor(s));
+        let governors = self.domain.governors(gap.triple(site));
         let disk = TouchingDisk::guess(&governors, gap.start.centre)?;
         if let Governor::Edge { start, end, direction } = governors[1] {
             let x = direction.dot(disk.centre + (disk.origin - start));
@@ -340,7 +348,7 @@ impl<'a> Search<'a> {
                         best = None;
                         continue;
                     }
-                    return Ok(Found::Disk { disk, triple, contacts });
+                    return Ok(Found::Disk { disk, triple, contacts, fixed: false });
                 }
             }
         }
@@ -418,7 +426,7 @@ impl<'a> Search<'a> {
         triple: &[Site; 3],
         guess: &TouchingDisk,
     ) -> Option<(TouchingDisk, Option<ExactDisk>)> {
-        let governors = triple.map(|s| self.domain.governor(s));
+        let governors = self.domain.governors(*triple);
         if let Some(disk) = guess.certified(&governors) {
             return Some((disk, None));
         }
@@ -450,7 +458,7 @@ impl<'a> Search<'a> {
 }
 
 /// Doubles for an exact disk, within two ulp.
-fn rounded(exact: &ExactDisk, origin: Point) -> TouchingDisk {
+pub(super) fn rounded(exact: &ExactDisk, origin: Point) -> TouchingDisk {
     let (position, radius) = exact.approximate();
     let centre = position - origin;
     let scale = position.x.abs().max(position.y.abs()).max(radius);

@@ -1,5 +1,6 @@
 use std::ops::Range;
 
+use super::finish::Mark;
 use super::gaps::Gaps;
 use super::hand::{Arrival, Hand, from_least, openings, path};
 use super::search::{Found, Search, Start};
@@ -32,6 +33,12 @@ pub(super) struct Tracer<'a> {
     stack: Vec<Pending>,
     /// Open gaps by their governors; `None` where no loop can close.
     gaps: Option<Gaps>,
+    /// For each walk of a polygon with holes whether it governs anything.
+    met: Vec<bool>,
+    /// Number of the polygon's first walk.
+    first_walk: u32,
+    /// What was traced before the current polygon.
+    before: Mark,
 }
 
 /// The walks of each polygon of a domain.
@@ -65,7 +72,17 @@ impl<'a> Tracer<'a> {
 
     /// The tracing of some polygons.
     pub fn over(polygons: Vec<Range<usize>>, hand: Hand<'a>) -> Self {
-        Self { polygons, current: 0, hand, seeds: Vec::new(), stack: Vec::new(), gaps: None }
+        Self {
+            polygons,
+            current: 0,
+            hand,
+            seeds: Vec::new(),
+            stack: Vec::new(),
+            gaps: None,
+            met: Vec::new(),
+            first_walk: 0,
+            before: Mark::default(),
+        }
     }
 
     /// Traces on to the next keypoint that is no plain transition; false when all is done.
@@ -87,13 +104,21 @@ impl<'a> Tracer<'a> {
                 self.stack.push(Pending { keypoint, right, left, gap: None, start });
                 continue;
             }
+            // A ring that hides between two empty disks governs nothing: look at every piece then.
+            let careful = self.met.contains(&false)
+                && self.hand.search.take().is_some_and(|search| !search.careful);
+            if careful {
+                self.hand.traced.go_back(self.before);
+                self.current -= 1;
+            }
             let Some(walks) = self.polygons.get(self.current).cloned() else { return Ok(false) };
             self.current += 1;
-            self.enter_polygon(walks);
+            self.enter_polygon(walks, careful);
         }
     }
 
-    fn enter_polygon(&mut self, walks: Range<usize>) {
+    fn enter_polygon(&mut self, walks: Range<usize>, careful: bool) {
+        self.before = self.hand.traced.mark();
         let Hand { domain, watch, .. } = &self.hand;
         let all = &domain.walks()[walks.clone()];
         let loops = all.iter().any(|w| w.hole);
@@ -102,7 +127,15 @@ impl<'a> Tracer<'a> {
             Gaps::new(2 * all[0].first, 2 * n_edges)
         });
         self.seeds.extend(walks.clone().rev().filter_map(|walk| seed(domain, walk)));
-        self.hand.search = Some(Search::new(domain, walks, watch.clone()));
+        self.met.clear();
+        if loops {
+            // Outer rings meet the axis at their convex corners.
+            self.met.extend(all.iter().map(|w| !w.hole));
+        }
+        self.first_walk = walks.start as u32;
+        let mut search = Search::new(domain, walks, watch.clone());
+        search.careful = careful;
+        self.hand.search = Some(search);
     }
 
     fn trace(&mut self, pending: Pending) -> Result<(), EngineError> {
@@ -111,7 +144,7 @@ impl<'a> Tracer<'a> {
             self.hand.follow(keypoint, right, left, start)?;
         let to = match found {
             Found::Corner(corner) => self.hand.add_end(corner),
-            Found::Disk { disk, triple, contacts } => {
+            Found::Disk { disk, triple, contacts, fixed } => {
                 let list = from_least(&contacts);
                 // The path seen from its other end has its governors the other way round.
                 let traced = &self.hand.traced;
@@ -122,7 +155,7 @@ impl<'a> Tracer<'a> {
                 match known {
                     Some(to) => to,
                     None => {
-                        let to = self.hand.add_keypoint(&disk, triple, &list);
+                        let to = self.hand.add_keypoint(&disk, triple, &list, fixed);
                         let start = Start { triple: Some(triple), ..Start::at(&disk) };
                         self.leave(to, start, &list, right, left).ok_or(EngineError::Internal {
                             stage: "closing a path",
@@ -147,6 +180,12 @@ impl<'a> Tracer<'a> {
         right: Site,
         left: Site,
     ) -> Option<()> {
+        if self.gaps.is_some() {
+            for site in list {
+                let walk = self.hand.domain.edge(site.index()).walk;
+                self.met[(walk - self.first_walk) as usize] = true;
+            }
+        }
         let openings = openings(self.hand.domain, list);
         let arrived = openings.iter().position(|&o| o == (left, right))?;
         // What follows the arrival is traced first.

@@ -275,19 +275,37 @@ impl<'s, 'a> Verify<'s, 'a> {
                 }
             }
         }
+        if !self.doubtful.is_empty() && !need(&mut exact) {
+            return Verdict::OffEdge;
+        }
+        // Of nearly equal disks the smallest: each one that cuts the present one replaces it.
+        let mut earlier: Option<(Site, ExactDisk)> = None;
         for &edge in &self.doubtful {
-            if search.watch.is_over() || !need(&mut exact) {
+            if search.watch.is_over() {
                 return Verdict::OffEdge;
             }
-            let Some(disk) = &exact else { return Verdict::OffEdge };
+            let disk = earlier.as_ref().map(|e| &e.1).or(exact.as_ref());
+            let Some(disk) = disk else { return Verdict::OffEdge };
             match search.touch(disk, edge) {
                 Touch::Clear => {}
-                Touch::Cut(part) => return Verdict::Earlier(part),
+                Touch::Cut(part) => {
+                    let triple = [self.triple[0], part, self.triple[2]];
+                    let third = if search.may_be_third(self.gap, part) {
+                        search.exact(&triple)
+                    } else {
+                        None
+                    };
+                    let Some(third) = third else { return Verdict::Earlier(part) };
+                    earlier = Some((part, third));
+                }
                 Touch::Contact { edge: on_edge, corner } => {
                     contacts.extend(on_edge.then_some(Site::edge(edge)));
                     contacts.extend(corner);
                 }
             }
+        }
+        if let Some((site, _)) = earlier {
+            return Verdict::Earlier(site);
         }
         contacts::sort(domain, &self.certified, exact.as_ref(), &self.triple, &mut contacts);
         Verdict::Clear(contacts)

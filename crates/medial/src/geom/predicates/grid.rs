@@ -125,6 +125,9 @@ pub(super) fn integers<const N: usize>(
     points: [Point; N],
     bits: u32,
 ) -> Option<[Integers; N]> {
+    if let Some(result) = whole_numbers(origin, &points, bits) {
+        return Some(result);
+    }
     let Grid { unit, .. } = Grid::new(origin, &points);
     let (x, y) = (small(origin.x, unit)?, small(origin.y, unit)?);
     let mut result = [Integers { x: 0, y: 0 }; N];
@@ -135,6 +138,31 @@ pub(super) fn integers<const N: usize>(
             return None;
         }
         *local = Integers { x: dx as i64, y: dy as i64 };
+    }
+    Some(result)
+}
+
+/// The same where all coordinates are whole numbers as they stand.
+#[inline]
+fn whole_numbers<const N: usize>(
+    origin: Point,
+    points: &[Point; N],
+    bits: u32,
+) -> Option<[Integers; N]> {
+    const LARGEST: f64 = (1_u64 << 53) as f64;
+    let whole = |value: f64| {
+        let integer = value as i64;
+        (integer as f64 == value && value.abs() <= LARGEST).then_some(integer)
+    };
+    let (x, y) = (whole(origin.x)?, whole(origin.y)?);
+    let limit = 1_i64 << bits;
+    let mut result = [Integers { x: 0, y: 0 }; N];
+    for (local, point) in result.iter_mut().zip(points) {
+        let (dx, dy) = (whole(point.x)? - x, whole(point.y)? - y);
+        if dx.abs() >= limit || dy.abs() >= limit {
+            return None;
+        }
+        *local = Integers { x: dx, y: dy };
     }
     Some(result)
 }

@@ -33,10 +33,11 @@ use self::meetings::Meetings;
 use self::pool::{Pool, StopOnPanic};
 use self::seeds::Seeds;
 use self::worker::{Task, Worker};
+use super::finish::Traced;
 use super::search::Index;
 use super::tracer::polygons;
 use crate::axis::MedialAxis;
-use crate::domain::Domain;
+use crate::domain::{Domain, Site};
 use crate::engine::watch::Watch;
 use crate::engine::{EngineError, Options};
 
@@ -52,6 +53,8 @@ const CHUNK: usize = 1000;
 /// What the threads share.
 struct Shared<'a> {
     domain: &'a Domain,
+    /// Whether every piece of a path is searched for whole rings.
+    careful: bool,
     /// Polygons that several threads trace together.
     large: Vec<Large>,
     /// The others, in groups.
@@ -85,8 +88,38 @@ enum Part {
 pub(super) fn trace(domain: &Domain, options: &Options<'_>) -> Result<MedialAxis, EngineError> {
     let watch = Watch::new(options);
     watch.check()?;
+    let loops = domain.walks().iter().any(|w| w.hole);
+    match attempt(domain, options, &watch, false) {
+        Ok(traced) if !loops || every_ring_governs(domain, &traced) => {
+            traced.number(domain, &watch)
+        }
+        // A ring hides between two empty disks: look at every piece then.
+        Ok(_) | Err(EngineError::Internal { .. }) if loops => {
+            attempt(domain, options, &watch, true)?.number(domain, &watch)
+        }
+        Ok(traced) => traced.number(domain, &watch),
+        Err(error) => Err(error),
+    }
+}
+
+/// Whether no hole was overlooked.
+fn every_ring_governs(domain: &Domain, traced: &Traced) -> bool {
+    let mut met: Vec<bool> = domain.walks().iter().map(|w| !w.hole).collect();
+    for &site in &traced.governors {
+        met[domain.edge(Site(site).index()).walk as usize] = true;
+    }
+    !met.contains(&false)
+}
+
+/// Everything there is, in the order of one thread, before it is numbered.
+fn attempt(
+    domain: &Domain,
+    options: &Options<'_>,
+    watch: &Watch<'_>,
+    careful: bool,
+) -> Result<Traced, EngineError> {
     let threads = options.threads.get().min(MOST_THREADS);
-    let shared = Shared::new(domain, polygons(domain)?, options.alone_below, threads);
+    let shared = Shared::new(domain, polygons(domain)?, options.alone_below, threads, careful);
     let mut workers: Vec<Worker<'_, '_>> = (0..threads)
         .map(|number| Worker::new(&shared, number as u32, watch.with(&shared.pool.stop)))
         .collect();
@@ -107,7 +140,7 @@ pub(super) fn trace(domain: &Domain, options: &Options<'_>) -> Result<MedialAxis
     let shares = workers.into_iter().map(Worker::into_share).collect();
     match shared.pool.error() {
         Some(error) => Err(watch.or(error)),
-        None => replay::put_together(shared, shares, &watch)?.number(domain, &watch),
+        None => replay::put_together(shared, shares, watch),
     }
 }
 
@@ -117,6 +150,7 @@ impl<'a> Shared<'a> {
         polygons: Vec<Range<usize>>,
         alone_below: usize,
         threads: usize,
+        careful: bool,
     ) -> Self {
         let (mut large, mut chunks, mut order) = (Vec::new(), Vec::new(), Vec::new());
         let mut room = 0;
@@ -143,7 +177,7 @@ impl<'a> Shared<'a> {
             tasks.extend(large.seeds.all().rev().map(|seed| Task::Seed { polygon, seed }));
         }
         let pool = Pool::new(tasks, threads);
-        Self { domain, large, chunks, order, pool, n_given: AtomicU32::new(0) }
+        Self { domain, careful, large, chunks, order, pool, n_given: AtomicU32::new(0) }
     }
 }
 

@@ -257,7 +257,10 @@ impl<'t> Order<'t> {
             End::Beyond => return Err(BROKEN),
             End::Corner(keypoint) => self.keypoint(Place { thread, keypoint }),
             End::Gap(gap) => {
-                *meetings.way(gap) = None;
+                if meetings.way(gap).take().is_none() {
+                    // Two different paths through one gap: a ring was seen from one end only.
+                    return Err(BROKEN);
+                }
                 let (Meeting { place, first_gap, n_gaps, .. }, number) = meetings.owner(gap);
                 if *number == NONE {
                     *number = self.keypoint(place);

@@ -161,7 +161,9 @@ impl<'s, 'a> Worker<'s, 'a> {
         if self.polygon.replace(polygon) != Some(polygon) {
             let (domain, large) = (self.shared.domain, self.large(polygon));
             let index = large.index.get_or_init(|| Index::new(domain, large.walks.clone()));
-            self.hand.search = Some(Search::over(domain, index.clone(), self.hand.watch.clone()));
+            let mut search = Search::over(domain, index.clone(), self.hand.watch.clone());
+            search.careful = self.shared.careful;
+            self.hand.search = Some(search);
         }
     }
 
@@ -253,8 +255,8 @@ impl<'s, 'a> Worker<'s, 'a> {
             }
             let arrival = self.hand.follow(from, right, left, start)?;
             let last = path(arrival.from, ELSEWHERE, arrival.right, arrival.left);
-            let (disk, triple, contacts) = match arrival.found {
-                Found::Disk { disk, triple, contacts } => (disk, triple, contacts),
+            let (disk, triple, contacts, fixed) = match arrival.found {
+                Found::Disk { disk, triple, contacts, fixed } => (disk, triple, contacts, fixed),
                 Found::Corner(corner) => {
                     if let Some(seed) = large.seeds.number(corner) {
                         large.met[seed].store(true, Ordering::Relaxed);
@@ -270,7 +272,7 @@ impl<'s, 'a> Worker<'s, 'a> {
             let next = Start { triple: Some(triple), ..Start::at(&disk) };
             if let [one, other] = openings[..] {
                 // A transition of a path that goes on.
-                from = self.hand.add_keypoint(&disk, triple, &list);
+                from = self.hand.add_keypoint(&disk, triple, &list, fixed);
                 self.hand.set_kind(from, 2);
                 self.hand.traced.paths.push(Path { to: from, ..last });
                 (right, left) = if arrived == 0 { other } else { one };
@@ -285,7 +287,7 @@ impl<'s, 'a> Worker<'s, 'a> {
             break match large.meetings.arrive(&list, n_gaps, gap, place) {
                 Arrived::Known(gap) => End::Gap(gap),
                 Arrived::New(first) => {
-                    let keypoint = self.hand.add_keypoint(&disk, triple, &list);
+                    let keypoint = self.hand.add_keypoint(&disk, triple, &list, fixed);
                     self.hand.set_kind(keypoint, openings.len());
                     self.open(polygon, first, &openings, arrived, next);
                     End::Gap(Gap { number: first.number + gap, ..first })
@@ -353,9 +355,9 @@ impl<'s, 'a> Worker<'s, 'a> {
                 self.hand.follow(keypoint, right, left, start)?;
             let to = match found {
                 Found::Corner(corner) => self.hand.add_end(corner),
-                Found::Disk { disk, triple, contacts } => {
+                Found::Disk { disk, triple, contacts, fixed } => {
                     let list = from_least(&contacts);
-                    let to = self.hand.add_keypoint(&disk, triple, &list);
+                    let to = self.hand.add_keypoint(&disk, triple, &list, fixed);
                     let openings = openings(self.shared.domain, &list);
                     let arrived = openings.iter().position(|&o| o == (left, right)).ok_or(
                         EngineError::Internal { stage: "closing a path", place: start.centre },
