@@ -94,10 +94,10 @@ impl Traced {
         triple: [Site; 3],
         list: &[Site],
     ) -> u32 {
-        if let Some(fixed) = fixed {
-            if fixed.is_precise() {
-                return self.add(fixed.position(), fixed.radius, KeypointKind::Junction, list);
-            }
+        if let Some(fixed) = fixed
+            && fixed.is_precise()
+        {
+            return self.add(fixed.position(), fixed.radius, KeypointKind::Junction, list);
         }
         let Start { centre, radius, doubt, .. } = Start::at(fixed.unwrap_or(disk));
         let keypoint = self.add(centre, radius, KeypointKind::Junction, list);
@@ -179,21 +179,31 @@ impl Traced {
         self.keypoints.shrink_to_fit();
         self.governors.shrink_to_fit();
         self.paths.shrink_to_fit();
-        MedialAxis::from_tables(
-            Engine::PathTracing,
-            Side::Interior,
-            Accuracy::Exact,
-            true,
-            sites,
-            self.keypoints,
-            self.governors,
-            self.paths,
-        )
-        .ok_or(EngineError::Internal { stage: "numbering sites", place: Point::default() })
+        axis_of(sites, self.keypoints, self.governors, self.paths)
     }
 }
 
-fn site_record(domain: &Domain, site: Site) -> axis::Site {
+/// The axis with these tables.
+pub(super) fn axis_of(
+    sites: Vec<axis::Site>,
+    keypoints: Vec<Keypoint>,
+    governors: Vec<u32>,
+    paths: Vec<Path>,
+) -> Result<MedialAxis, EngineError> {
+    MedialAxis::from_tables(
+        Engine::PathTracing,
+        Side::Interior,
+        Accuracy::Exact,
+        true,
+        sites,
+        keypoints,
+        governors,
+        paths,
+    )
+    .ok_or(EngineError::Internal { stage: "numbering sites", place: Point::default() })
+}
+
+pub(super) fn site_record(domain: &Domain, site: Site) -> axis::Site {
     let k = site.index();
     let origin = domain.origin(k);
     let a = domain.edge(k).start;

@@ -18,6 +18,7 @@
 //! Every decision is exact and every position depends on the governors only, so a path is the same
 //! from whichever end it is traced.
 
+mod gather;
 mod meetings;
 mod pool;
 mod replay;
@@ -32,14 +33,14 @@ use std::thread;
 use self::meetings::Meetings;
 use self::pool::{Pool, StopOnPanic};
 use self::seeds::Seeds;
-use self::worker::{Task, Worker};
-use super::finish::Traced;
+use self::worker::{Share, Task, Worker};
 use super::search::Index;
 use super::tracer::polygons;
 use crate::axis::MedialAxis;
-use crate::domain::{Domain, Site};
+use crate::domain::Domain;
 use crate::engine::watch::Watch;
 use crate::engine::{EngineError, Options};
+use crate::geom::Point;
 
 /// Threads beyond this number would only wait for one another.
 const MOST_THREADS: usize = 64;
@@ -89,35 +90,29 @@ pub(super) fn trace(domain: &Domain, options: &Options<'_>) -> Result<MedialAxis
     let watch = Watch::new(options);
     watch.check()?;
     let loops = domain.walks().iter().any(|w| w.hole);
+    let overlooked = EngineError::Internal {
+        stage: "counting rings",
+        place: domain.edges().first().map_or(Point::default(), |e| e.start),
+    };
     match attempt(domain, options, &watch, false) {
-        Ok(traced) if !loops || every_ring_governs(domain, &traced) => {
-            traced.number(domain, &watch)
-        }
+        Ok(Some(axis)) => Ok(axis),
         // A ring hides between two empty disks: look at every piece then.
-        Ok(_) | Err(EngineError::Internal { .. }) if loops => {
-            attempt(domain, options, &watch, true)?.number(domain, &watch)
+        Ok(None) | Err(EngineError::Internal { .. }) if loops => {
+            attempt(domain, options, &watch, true)?.ok_or(overlooked)
         }
-        Ok(traced) => traced.number(domain, &watch),
+        Ok(None) => Err(overlooked),
         Err(error) => Err(error),
     }
 }
 
-/// Whether no hole was overlooked.
-fn every_ring_governs(domain: &Domain, traced: &Traced) -> bool {
-    let mut met: Vec<bool> = domain.walks().iter().map(|w| !w.hole).collect();
-    for &site in &traced.governors {
-        met[domain.edge(Site(site).index()).walk as usize] = true;
-    }
-    !met.contains(&false)
-}
-
-/// Everything there is, in the order of one thread, before it is numbered.
+/// The axis; `None` if a hole was overlooked, which cannot be where every piece of a path is searched
+/// for whole rings.
 fn attempt(
     domain: &Domain,
     options: &Options<'_>,
     watch: &Watch<'_>,
     careful: bool,
-) -> Result<Traced, EngineError> {
+) -> Result<Option<MedialAxis>, EngineError> {
     let threads = options.threads.get().min(MOST_THREADS);
     let shared = Shared::new(domain, polygons(domain)?, options.alone_below, threads, careful);
     let mut workers: Vec<Worker<'_, '_>> = (0..threads)
@@ -137,11 +132,12 @@ fn attempt(
         }
         own[0].work();
     });
-    let shares = workers.into_iter().map(Worker::into_share).collect();
-    match shared.pool.error() {
-        Some(error) => Err(watch.or(error)),
-        None => replay::put_together(shared, shares, watch),
+    let shares: Vec<Share> = workers.into_iter().map(Worker::into_share).collect();
+    if let Some(error) = shared.pool.error() {
+        return Err(watch.or(error));
     }
+    let pieces = replay::replay(shared, &shares, watch)?;
+    gather::gather(domain, shares, &pieces, watch)
 }
 
 impl<'a> Shared<'a> {

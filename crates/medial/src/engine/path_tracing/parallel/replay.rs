@@ -1,15 +1,11 @@
 //! Puts the blocks of all threads together as one thread would have traced them.
 //!
-//! First the blocks are only brought into order, one after the other, which also gives every keypoint
-//! its number; then several threads copy what is in them.
+//! The blocks are only brought into order here, which also gives every keypoint its number; what is in
+//! them is copied by several threads ([`super::gather`]).
 
-use std::ops::Range;
-
-use super::super::finish::Traced;
 use super::meetings::{Gap, Meeting, Place, Shard};
 use super::worker::{Block, End, Origin, Share};
 use super::{Large, Part, Shared};
-use crate::axis::Path;
 use crate::engine::EngineError;
 use crate::engine::watch::Watch;
 use crate::geom::Point;
@@ -21,19 +17,19 @@ const BROKEN: EngineError =
 
 /// A block in the tables of a thread.
 #[derive(Clone, Copy, Debug)]
-struct BlockId {
-    thread: u32,
-    block: u32,
+pub(super) struct BlockId {
+    pub thread: u32,
+    pub block: u32,
 }
 
 const NO_BLOCK: BlockId = BlockId { thread: NONE, block: NONE };
 
 /// How a path is traced from a gap.
 #[derive(Clone, Copy, Debug)]
-struct Way {
-    id: BlockId,
+pub(super) struct Way {
+    pub id: BlockId,
     /// Whether the block ends at the gap instead of beginning there.
-    backwards: bool,
+    pub backwards: bool,
 }
 
 /// What waits to be put in its place.
@@ -45,7 +41,7 @@ enum Todo {
 
 /// A part of the result.
 #[derive(Clone, Copy, Debug)]
-enum Piece {
+pub(super) enum Piece {
     /// One keypoint.
     Keypoint(Place),
     /// A block from one numbered keypoint to another; to itself, if all beyond is in it.
@@ -72,12 +68,12 @@ struct Order<'t> {
     todo: Vec<Todo>,
 }
 
-/// The tables of one thread, made of those of several.
-pub(super) fn put_together(
+/// All pieces in the order in which one thread would have traced them.
+pub(super) fn replay(
     shared: Shared<'_>,
-    shares: Vec<Share>,
+    shares: &[Share],
     watch: &Watch<'_>,
-) -> Result<Traced, EngineError> {
+) -> Result<Vec<Piece>, EngineError> {
     let Shared { large, chunks, order: parts, n_given, .. } = shared;
     let mut chunk_blocks = vec![NO_BLOCK; chunks.len()];
     let mut seed_blocks: Vec<Vec<BlockId>> =
@@ -113,14 +109,8 @@ pub(super) fn put_together(
         }
     }
     let firsts = shares.iter().map(|share| vec![NONE; share.blocks.len()]).collect();
-    let mut order = Order {
-        shares: &shares,
-        given,
-        firsts,
-        n_keypoints: 0,
-        pieces: Vec::new(),
-        todo: Vec::new(),
-    };
+    let mut order =
+        Order { shares, given, firsts, n_keypoints: 0, pieces: Vec::new(), todo: Vec::new() };
     for part in parts {
         watch.check()?;
         match part {
@@ -132,9 +122,7 @@ pub(super) fn put_together(
             }
         }
     }
-    let Order { pieces, .. } = order;
-    drop(meetings);
-    copy(&shares, &pieces)
+    Ok(order.pieces)
 }
 
 impl Meetings {
@@ -277,62 +265,4 @@ impl<'t> Order<'t> {
         }
         Ok(())
     }
-}
-
-fn copy(shares: &[Share], pieces: &[Piece]) -> Result<Traced, EngineError> {
-    let mut all = Traced::default();
-    for piece in pieces {
-        match *piece {
-            Piece::Keypoint(Place { thread, keypoint }) => {
-                all.copy_keypoints(&shares[thread as usize].traced, keypoint..keypoint + 1);
-            }
-            Piece::Block { way: Way { id, backwards }, from, to, first } => {
-                let share = &shares[id.thread as usize];
-                let block = &share.blocks[id.block as usize];
-                let paths = block.paths.start as usize..block.paths.end as usize;
-                let paths = &share.traced.paths[paths];
-                let keypoints = block.keypoints.clone();
-                if let End::Beyond = block.end {
-                    let shift = |k: u32| number(k, &keypoints, first, from);
-                    all.paths.extend(paths.iter().map(|p| Path {
-                        from: shift(p.from),
-                        to: shift(p.to),
-                        ..*p
-                    }));
-                    all.copy_keypoints(&share.traced, keypoints);
-                } else {
-                    let n = paths.len() as u32;
-                    let at = |k: u32| match k {
-                        0 => from,
-                        k if k == n => to,
-                        k => first + k - 1,
-                    };
-                    if backwards {
-                        all.paths.extend(paths.iter().rev().zip(0..).map(|(p, k)| Path {
-                            from: at(k),
-                            to: at(k + 1),
-                            left: p.right,
-                            right: p.left,
-                        }));
-                        for k in keypoints.rev() {
-                            all.copy_keypoints(&share.traced, k..k + 1);
-                        }
-                    } else {
-                        all.paths.extend(paths.iter().zip(0..).map(|(p, k)| Path {
-                            from: at(k),
-                            to: at(k + 1),
-                            ..*p
-                        }));
-                        all.copy_keypoints(&share.traced, keypoints);
-                    }
-                }
-            }
-        }
-    }
-    Ok(all)
-}
-
-/// The number in the result of a keypoint of a block; that of its beginning, if not in it.
-fn number(keypoint: u32, keypoints: &Range<u32>, first: u32, from: u32) -> u32 {
-    if keypoints.contains(&keypoint) { first + (keypoint - keypoints.start) } else { from }
 }
