@@ -59,6 +59,8 @@ fn engine(engine: Engine, domain: &Domain) -> Result<MedialAxis, EngineError> {
 fn code(error: &EngineError) -> &'static str {
     match error {
         EngineError::TooLarge { .. } => "too_large",
+        EngineError::Cancelled => "cancelled",
+        EngineError::TimeLimit => "time_limit",
         _ => "internal",
     }
 }

@@ -83,6 +83,11 @@ impl Keypoint {
     pub(crate) fn new(position: Point, radius: f64, kind: KeypointKind, governors: u32) -> Self {
         Self { position, radius, kind, governors }
     }
+
+    /// Moves the start of its governors on.
+    pub(crate) fn shift_governors(&mut self, by: u32) {
+        self.governors += by;
+    }
 }
 
 /// Governors of one of these keypoints, which share a list in their order.

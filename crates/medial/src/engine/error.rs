@@ -21,4 +21,10 @@ pub enum EngineError {
         /// Edges of the domain.
         n_edges: usize,
     },
+    /// Another thread set the flag that cancels.
+    #[error("cancelled")]
+    Cancelled,
+    /// The deadline has passed.
+    #[error("not done within the time limit")]
+    TimeLimit,
 }

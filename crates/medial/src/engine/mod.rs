@@ -2,7 +2,12 @@
 //! [`MedialAxis`](crate::axis::MedialAxis).
 
 mod error;
+mod options;
 mod path_tracing;
+mod watch;
 
 pub use error::EngineError;
-pub use path_tracing::{Candidate, Step, Steps, path_tracing, path_tracing_steps};
+pub use options::Options;
+pub use path_tracing::{
+    Candidate, Step, Steps, path_tracing, path_tracing_steps, path_tracing_with,
+};

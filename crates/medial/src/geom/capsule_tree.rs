@@ -15,8 +15,6 @@
 //! # Departures
 //! None.
 
-use std::cell::Cell;
-
 use super::{Point, Rect, hilbert};
 
 /// Children of a node, and edges of a leaf.
@@ -103,8 +101,6 @@ struct Node {
 pub struct CapsuleTree {
     /// The edges in the order of the leaves, if that is not the order of the boundary.
     order: Option<Vec<u32>>,
-    /// Nodes that visits went through, and visits.
-    work: Cell<(u64, u64)>,
     /// First edge.
     base: u32,
     n_edges: u32,
@@ -186,14 +182,7 @@ impl CapsuleTree {
             }
             runs = above;
         }
-        let work = Cell::new((0, 0));
-        Self { order, work, base, n_edges, scale, slack, bounds, leaves, nodes, levels }
-    }
-
-    /// Nodes entered and visits made so far.
-    #[must_use]
-    pub fn work(&self) -> (u64, u64) {
-        self.work.get()
+        Self { order, base, n_edges, scale, slack, bounds, leaves, nodes, levels }
     }
 
     /// The numbers of the edges.
@@ -224,11 +213,12 @@ impl CapsuleTree {
         (a == 0 && d >= u64::from(self.n_edges) && b < c).then(|| (b, c - 1))
     }
 
-    /// Shows every edge that may be within the scope of `look` and is not hidden, in a fixed order.
+    /// Shows every edge that may be within the scope of `look` and is not hidden, in a fixed order;
+    /// gives the number of nodes entered.
     #[inline]
-    pub fn visit(&self, hidden: Hidden, look: &mut impl Look) {
+    pub fn visit(&self, hidden: Hidden, look: &mut impl Look) -> u64 {
         if self.n_edges == 0 {
-            return;
+            return 0;
         }
         let all_hidden = hidden;
         // In another order nothing is known of whole runs.
@@ -284,9 +274,7 @@ impl CapsuleTree {
             // Go on with the next waiting child.
             loop {
                 if level > top {
-                    let (nodes, visits) = self.work.get();
-                    self.work.set((nodes + entered, visits + 1));
-                    return;
+                    return entered;
                 }
                 let (first, mask) = waiting[level];
                 if mask != 0 {

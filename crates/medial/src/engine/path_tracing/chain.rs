@@ -454,6 +454,9 @@ impl Search<'_> {
     ) -> Option<Proposal> {
         let mut reach = GROWTH * known;
         while end.is_none_or(|e| 2.0 * reach < e.position) && reach.is_finite() {
+            if self.watch.is_over() {
+                return None;
+            }
             let Some(disk) = gap.course(self.domain).disk_at(reach) else { break };
             if end.is_some_and(|e| disk.radius * LEAP > e.disk.radius) {
                 break;
@@ -492,6 +495,9 @@ impl Search<'_> {
         // The exact disk of the proposal, where only exact arithmetic made it.
         let mut exact = None;
         for _ in 0..MOST_ROUNDS {
+            if self.watch.is_over() {
+                return None;
+            }
             let (right, left) = self.link;
             let here = self.passed.last().map_or(anchor, |p| Start::at(&p.disk));
             let gap = Gap::new(right, left, here, front);

@@ -1,5 +1,7 @@
 //! What was traced, and the axis made of it.
 
+use std::ops::Range;
+
 use super::chain::Passed;
 use super::positions::position;
 use super::search::Start;
@@ -8,6 +10,7 @@ use crate::axis::{
 };
 use crate::domain::{Domain, Site};
 use crate::engine::EngineError;
+use crate::engine::watch::Watch;
 use crate::geom::{Point, TouchingDisk};
 
 /// A keypoint that must be placed more precisely.
@@ -18,6 +21,8 @@ struct Rough {
     triple: [Site; 3],
     /// Bound on the error of its position and radius.
     doubt: f64,
+    /// Whether these depend on the governors only.
+    own: bool,
 }
 
 /// Keypoints and paths, with sites by their numbers in the domain.
@@ -94,12 +99,14 @@ impl Traced {
         triple: [Site; 3],
         list: &[Site],
     ) -> u32 {
-        if let Some(fixed) = fixed.filter(|fixed| fixed.is_precise()) {
+        if let Some(fixed) = fixed
+            && fixed.is_precise()
+        {
             return self.add(fixed.position(), fixed.radius, KeypointKind::Junction, list);
         }
-        let Start { centre, radius, doubt, .. } = Start::at(disk);
+        let Start { centre, radius, doubt, .. } = Start::at(fixed.unwrap_or(disk));
         let keypoint = self.add(centre, radius, KeypointKind::Junction, list);
-        self.rough.push(Rough { keypoint, triple, doubt });
+        self.rough.push(Rough { keypoint, triple, doubt, own: fixed.is_some() });
         keypoint
     }
 
@@ -116,17 +123,44 @@ impl Traced {
         keypoint
     }
 
+    /// Adds keypoints of other tables.
+    pub fn copy_keypoints(&mut self, other: &Self, keypoints: Range<u32>) {
+        for k in keypoints {
+            let first = self.governors.len() as u32;
+            self.governors.extend_from_slice(axis::governors(
+                &other.keypoints,
+                &other.governors,
+                k,
+            ));
+            let Keypoint { position, radius, kind, .. } = other.keypoints[k as usize];
+            self.keypoints.push(Keypoint::new(position, radius, kind, first));
+        }
+    }
+
     /// The axis: every position computed as precisely as promised.
-    pub fn finish(mut self, domain: &Domain) -> Result<MedialAxis, EngineError> {
-        for rough in &self.rough {
+    pub fn finish(mut self, domain: &Domain, watch: &Watch<'_>) -> Result<MedialAxis, EngineError> {
+        self.place(domain, watch)?;
+        self.number(domain, watch)
+    }
+
+    /// Computes every position as precisely as promised.
+    pub fn place(&mut self, domain: &Domain, watch: &Watch<'_>) -> Result<(), EngineError> {
+        for rough in std::mem::take(&mut self.rough) {
+            watch.check()?;
             let list: Vec<Site> = self.governors_of(rough.keypoint);
             let keypoint = &mut self.keypoints[rough.keypoint as usize];
             let (centre, radius) = (keypoint.position, keypoint.radius);
+            let found = Start { centre, radius, doubt: rough.doubt, triple: None };
             (keypoint.position, keypoint.radius) =
-                position(domain, &list, &rough.triple, centre, radius, rough.doubt)
+                position(domain, &list, &rough.triple, found, rough.own)
                     .ok_or(EngineError::Internal { stage: "placing a keypoint", place: centre })?;
         }
-        // Sites that govern something, numbered in boundary order.
+        Ok(())
+    }
+
+    /// The axis, with the sites that govern something numbered in boundary order.
+    pub fn number(mut self, domain: &Domain, watch: &Watch<'_>) -> Result<MedialAxis, EngineError> {
+        watch.check()?;
         let mut number = vec![u32::MAX; 2 * domain.edges().len()];
         for &site in &self.governors {
             number[site as usize] = 0;
@@ -150,21 +184,31 @@ impl Traced {
         self.keypoints.shrink_to_fit();
         self.governors.shrink_to_fit();
         self.paths.shrink_to_fit();
-        MedialAxis::from_tables(
-            Engine::PathTracing,
-            Side::Interior,
-            Accuracy::Exact,
-            true,
-            sites,
-            self.keypoints,
-            self.governors,
-            self.paths,
-        )
-        .ok_or(EngineError::Internal { stage: "numbering sites", place: Point::default() })
+        axis_of(sites, self.keypoints, self.governors, self.paths)
     }
 }
 
-fn site_record(domain: &Domain, site: Site) -> axis::Site {
+/// The axis with these tables.
+pub(super) fn axis_of(
+    sites: Vec<axis::Site>,
+    keypoints: Vec<Keypoint>,
+    governors: Vec<u32>,
+    paths: Vec<Path>,
+) -> Result<MedialAxis, EngineError> {
+    MedialAxis::from_tables(
+        Engine::PathTracing,
+        Side::Interior,
+        Accuracy::Exact,
+        true,
+        sites,
+        keypoints,
+        governors,
+        paths,
+    )
+    .ok_or(EngineError::Internal { stage: "numbering sites", place: Point::default() })
+}
+
+pub(super) fn site_record(domain: &Domain, site: Site) -> axis::Site {
     let k = site.index();
     let origin = domain.origin(k);
     let a = domain.edge(k).start;

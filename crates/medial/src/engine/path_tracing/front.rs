@@ -27,6 +27,11 @@ impl Front {
         Some(Self { walk: (walk.first, walk.first + walk.len), first: right.index(), last })
     }
 
+    /// First and last edge ahead; they wrap around the walk where the first one is greater.
+    pub fn ends(&self) -> (u32, u32) {
+        (self.first, self.last)
+    }
+
     /// Whether an edge may be met.
     #[inline]
     pub fn holds(&self, edge: u32) -> bool {

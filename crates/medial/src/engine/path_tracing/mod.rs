@@ -29,7 +29,9 @@ mod course;
 mod finish;
 mod front;
 mod gaps;
+mod hand;
 mod order;
+mod parallel;
 mod positions;
 mod probe;
 mod rings;
@@ -42,7 +44,8 @@ mod verify;
 pub use search::Candidate;
 pub use steps::{Step, Steps};
 
-use super::EngineError;
+use super::watch::Watch;
+use super::{EngineError, Options};
 use crate::axis::MedialAxis;
 use crate::domain::Domain;
 use tracer::Tracer;
@@ -52,7 +55,25 @@ use tracer::Tracer;
 /// # Errors
 /// [`EngineError::Internal`] if an invariant of the engine breaks, which no input should cause.
 pub fn path_tracing(domain: &Domain) -> Result<MedialAxis, EngineError> {
-    let mut tracer = Tracer::new(domain)?;
+    path_tracing_with(domain, &Options::default())
+}
+
+/// The same on several threads, and within limits. The axis is the same bit for bit.
+///
+/// # Errors
+/// As [`path_tracing`]; and [`EngineError::Cancelled`] or [`EngineError::TimeLimit`].
+pub fn path_tracing_with(
+    domain: &Domain,
+    options: &Options<'_>,
+) -> Result<MedialAxis, EngineError> {
+    if options.threads.get() > 1 && domain.edges().len() >= options.alone_below {
+        // What several hands could not finish, one finishes with more care.
+        match parallel::trace(domain, options) {
+            Err(EngineError::Internal { .. }) => {}
+            done => return done,
+        }
+    }
+    let mut tracer = Tracer::new(domain, Watch::new(options))?;
     while tracer.step()? {}
     tracer.finish()
 }

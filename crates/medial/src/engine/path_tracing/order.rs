@@ -36,6 +36,9 @@ impl Search<'_> {
         let start = gap.start.triple.and_then(|t| self.exact(&t));
         let mut first: Option<(Site, ExactDisk)> = None;
         for &site in sites {
+            if self.watch.is_over() {
+                return None;
+            }
             if !self.may_be_third(gap, site) {
                 continue;
             }
@@ -104,6 +107,9 @@ impl Search<'_> {
 
     /// Whether the disk through a corner of a whole ring lies between start and end of a path.
     pub(super) fn is_between(&self, gap: &Gap, site: Site, found: &Found) -> bool {
+        if self.watch.is_over() {
+            return false;
+        }
         let Some(disk) = self.exact(&gap.triple(site)) else { return false };
         if let Some(start) = gap.start.triple.and_then(|t| self.exact(&t))
             && self.along_path(gap, &start, &disk) != Ordering::Less

@@ -1,11 +1,12 @@
 //! Positions and radii of keypoints, from one fixed triple of governors.
 //!
-//! The triple depends on the governor list, and not on how the keypoint was found, so engines and
-//! orders of tracing agree; the centre found serves to weigh corners, with a margin. Newton steps
-//! with residuals in twice the precision of doubles; where their bound is too large, the exact disk
-//! is evaluated instead.
+//! The triple depends on the governor list, and not on how the keypoint was found, so engines,
+//! orders of tracing and numbers of threads agree; the centre found serves to weigh corners, with a
+//! margin. Newton steps with residuals in twice the precision of doubles; where their bound is too
+//! large, the exact disk is evaluated instead.
 
 use super::contacts::follows;
+use super::search::Start;
 use crate::domain::{Domain, Site};
 use crate::geom::predicates::ExactDisk;
 use crate::geom::{Double, Governor, Point, TouchingDisk};
@@ -32,31 +33,42 @@ const RESIDUAL_ERROR: f64 = 1.0 / (1_u128 << 90) as f64;
 
 /// Centre and radius of a keypoint, within 4 ulp of max(|x|, |y|, radius).
 ///
-/// `centre` and `radius` are a start, off by at most `doubt`; `known` is a triple that defines the
-/// disk.
+/// `found` is a start, within its bounds, and if `own` one that depends on the governors only;
+/// `known` is a triple that defines the disk.
 pub(super) fn position(
     domain: &Domain,
     list: &[Site],
     known: &[Site; 3],
-    centre: Point,
-    radius: f64,
-    doubt: f64,
+    found: Start,
+    own: bool,
 ) -> Option<(Point, f64)> {
-    let triple = best_triple(domain, list, centre).unwrap_or(*known);
+    let triple = best_triple(domain, list, found.centre).unwrap_or(*known);
     let governors = domain.governors(triple);
     // Far from the start there may be another disk of the same three elements.
-    let same = |&(c, r): &(Point, f64)| {
-        (c - centre).norm() + (r - radius).abs() <= 4.0 * doubt && doubt <= r / FAR_APART
+    let near = |c: Point, r: f64, doubt: f64| {
+        (c - found.centre).norm() + (r - found.radius).abs() <= 4.0 * doubt
+            && doubt <= r / FAR_APART
     };
-    if let Some(disk) = TouchingDisk::touching(&governors)
-        && disk.is_precise()
-        && same(&(disk.position(), disk.radius))
-    {
-        return Some((disk.position(), disk.radius));
-    }
-    let precise = Precise::new(&governors, centre, radius).and_then(|mut p| p.refine());
-    if let Some(precise) = precise.filter(same) {
-        return Some(precise);
+    // Where the steps begin may tell in the last bit: at the disk that doubles find for the triple
+    // alone.
+    let start = if own && list.len() == 3 {
+        Some(found)
+    } else {
+        let disk = TouchingDisk::touching(&governors);
+        let start = disk.map(|disk| Start::at(&disk));
+        let start = start.filter(|s| near(s.centre, s.radius, found.doubt + s.doubt));
+        if let (Some(disk), Some(_)) = (disk, start)
+            && disk.is_precise()
+        {
+            return Some((disk.position(), disk.radius));
+        }
+        start
+    };
+    if let Some(Start { centre, radius, doubt, .. }) = start {
+        let precise = Precise::new(&governors, centre, radius).and_then(|mut p| p.refine());
+        if let Some(precise) = precise.filter(|&(c, r)| near(c, r, found.doubt + doubt)) {
+            return Some(precise);
+        }
     }
     let exact = |t: &[Site; 3]| ExactDisk::new(t.map(|s| domain.element(s)));
     exact(&triple).or_else(|| exact(known)).map(|disk| disk.approximate())

@@ -117,7 +117,7 @@ impl Search<'_> {
     }
 
     fn look(&self, gap: &Gap, disk: Option<TouchingDisk>) -> Look {
-        let Some(disk) = disk else { return Look::Blocked };
+        let Some(disk) = disk.filter(|_| !self.watch.is_over()) else { return Look::Blocked };
         let mut verify = Verify::hunting(self, gap, (&gap.start, &[]), disk);
         verify.run();
         match verify.best() {

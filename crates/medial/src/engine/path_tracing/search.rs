@@ -5,7 +5,8 @@
 //! counterclockwise order is a keypoint however it was proposed, and the next one on the path
 //! unless a whole ring lies between its disk and the one at the start ([`super::rings`]).
 
-use std::cell::OnceCell;
+use std::cell::{Cell, OnceCell};
+use std::sync::Arc;
 
 use super::chain::Passed;
 use super::contacts::Contacts;
@@ -16,6 +17,7 @@ use super::touch::{Touch, touch};
 use super::verify::{Verdict, Verify};
 use crate::domain::{Corner, Domain, Site};
 use crate::engine::EngineError;
+use crate::engine::watch::Watch;
 use crate::geom::predicates::ExactDisk;
 use crate::geom::{CapsuleTree, Governor, Point, TouchingDisk};
 
@@ -107,15 +109,35 @@ const NODES: u64 = 100;
 /// Tries before only exact arithmetic proposes.
 const FLOATING_TRIES: usize = 48;
 
+/// What is known about the boundary of one polygon of a domain; several searches may share it.
+#[derive(Clone, Debug)]
+pub(super) struct Index {
+    tree: Arc<CapsuleTree>,
+    rings: Option<Arc<HiddenRings>>,
+}
+
+impl Index {
+    /// The index over the walks with the given numbers.
+    pub fn new(domain: &Domain, walks: std::ops::Range<usize>) -> Self {
+        let first = domain.walks()[walks.start].first;
+        let n: u32 = domain.walks()[walks.clone()].iter().map(|w| w.len).sum();
+        let tree = CapsuleTree::new(first, n, |k| (domain.edge(k).start, domain.end(k)));
+        let rings = HiddenRings::new(domain, walks);
+        Self { tree: Arc::new(tree), rings: rings.map(Arc::new) }
+    }
+}
+
 /// Looks for ends of paths in one polygon of a domain.
 pub(super) struct Search<'a> {
     pub domain: &'a Domain,
-    pub tree: CapsuleTree,
+    pub tree: Arc<CapsuleTree>,
+    /// Nodes that visits of the tree entered, and visits.
+    pub work: Cell<(u64, u64)>,
     /// Whether the tree was sorted anew.
     mended: bool,
     /// No disk inside the polygon has a larger radius.
     pub largest: f64,
-    pub rings: Option<HiddenRings>,
+    pub rings: Option<Arc<HiddenRings>>,
     pub banned: Vec<Site>,
     /// Whether every piece of a path is searched for whole rings, and not only counted on in the end
     /// that every ring governs something.
@@ -130,18 +152,22 @@ pub(super) struct Search<'a> {
     pub behind: Vec<u32>,
     /// What was tried for the last path, for those who watch.
     pub tried: Vec<Candidate>,
+    pub watch: Watch<'a>,
 }
 
 impl<'a> Search<'a> {
     /// Prepares the search in the polygon whose walks have the given numbers.
-    pub fn new(domain: &'a Domain, walks: std::ops::Range<usize>) -> Self {
-        let first = domain.walks()[walks.start].first;
-        let n: u32 = domain.walks()[walks.clone()].iter().map(|w| w.len).sum();
-        let tree = CapsuleTree::new(first, n, |k| (domain.edge(k).start, domain.end(k)));
-        let rings = HiddenRings::new(domain, walks);
+    pub fn new(domain: &'a Domain, walks: std::ops::Range<usize>, watch: Watch<'a>) -> Self {
+        Self::over(domain, Index::new(domain, walks), watch)
+    }
+
+    /// The same with an index that is there already.
+    pub fn over(domain: &'a Domain, index: Index, watch: Watch<'a>) -> Self {
+        let Index { tree, rings } = index;
         let bounds = tree.bounds();
         Self {
             domain,
+            work: Cell::new((0, 0)),
             mended: false,
             largest: (bounds.max - bounds.min).norm(),
             tree,
@@ -153,21 +179,21 @@ impl<'a> Search<'a> {
             tie: None,
             behind: Vec::new(),
             tried: Vec::new(),
+            watch,
         }
     }
 
     /// Sorts the tree anew if visits have gone through too many nodes of it.
     pub fn mend_tree(&mut self) {
-        let (nodes, visits) = self.tree.work();
+        let (nodes, visits) = self.work.get();
         if self.mended || visits < VISITS || nodes < NODES * visits {
             return;
         }
         self.mended = true;
         let items = self.tree.items();
         let n_edges = items.end - items.start;
-        self.tree = CapsuleTree::along_a_curve(items.start, n_edges, |k| {
-            (self.domain.edge(k).start, self.domain.end(k))
-        });
+        let ends = |k| (self.domain.edge(k).start, self.domain.end(k));
+        self.tree = Arc::new(CapsuleTree::along_a_curve(items.start, n_edges, ends));
     }
 
     /// The end of the path that leaves `start` between `right` and `left`.
@@ -184,6 +210,7 @@ impl<'a> Search<'a> {
         let mut last_hidden = None;
         // Each turn ends the path at an earlier site.
         for _ in 0..=2 * self.tree.items().len() {
+            self.watch.check()?;
             if let Found::Disk { contacts, .. } = &found
                 && let Some(behind) = contact_behind(contacts, right, left)
             {
@@ -197,6 +224,7 @@ impl<'a> Search<'a> {
             let suspects = rings.suspects(self.domain, &gap, &found);
             let hidden: Vec<Site> =
                 suspects.into_iter().filter(|&s| self.is_between(&gap, s, &found)).collect();
+            self.watch.check()?;
             if hidden.is_empty() {
                 return Ok(found);
             }
@@ -214,7 +242,8 @@ impl<'a> Search<'a> {
     }
 
     fn broken(&self, gap: &Gap) -> EngineError {
-        EngineError::Internal { stage: "tracing a path", place: gap.start.centre }
+        let place = gap.start.centre;
+        self.watch.or(EngineError::Internal { stage: "tracing a path", place })
     }
 
     /// Whether the path ends in the convex corner between its two governors.
@@ -267,6 +296,7 @@ impl<'a> Search<'a> {
         // How many of them the last resort has weighed; all there are, if the greatest number.
         let mut known = 0;
         for round in 0..MOST_TRIES {
+            self.watch.check()?;
             let Some(proposal) = best else {
                 best = self.last_resort(gap, &mut seen, &mut known)?;
                 continue;
@@ -303,9 +333,11 @@ impl<'a> Search<'a> {
                 Verdict::Cut(sites) => {
                     best = None;
                     let cutting = sites.iter().find_map(|&s| {
-                        (floating && s != proposal.site).then(|| self.propose(gap, s)).flatten()
+                        let tries = floating && s != proposal.site && !self.watch.is_over();
+                        tries.then(|| self.propose(gap, s)).flatten()
                     });
                     for s in sites {
+                        self.watch.check()?;
                         if !seen.contains(&s) {
                             seen.push(s);
                         }

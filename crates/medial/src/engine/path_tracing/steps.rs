@@ -1,9 +1,10 @@
 //! The tracing as values to look at, one path at a time.
 
 use super::search::Candidate;
-use super::tracer::Tracer;
+use super::tracer::{Care, Tracer};
 use crate::domain::{Domain, Site};
-use crate::engine::EngineError;
+use crate::engine::watch::Watch;
+use crate::engine::{EngineError, Options};
 use crate::geom::Point;
 
 /// One traced path, as a value to look at.
@@ -37,7 +38,8 @@ pub struct Steps<'a> {
 
 impl<'a> Steps<'a> {
     pub(super) fn new(domain: &'a Domain) -> Result<Self, EngineError> {
-        let tracer = Tracer::one_by_one(domain)?;
+        let tracer = Tracer::new(domain, Watch::new(&Options::default()))?;
+        let tracer = tracer.with_care(Care::Single);
         Ok(Self { tracer, failed: false })
     }
 }
@@ -49,7 +51,7 @@ impl Iterator for Steps<'_> {
         if self.failed {
             return None;
         }
-        let known = self.tracer.traced.keypoints.len();
+        let known = self.tracer.hand.traced.keypoints.len();
         match self.tracer.step() {
             Ok(false) => None,
             Err(error) => {
@@ -57,13 +59,13 @@ impl Iterator for Steps<'_> {
                 Some(Err(error))
             }
             Ok(true) => {
-                let traced = &self.tracer.traced;
+                let traced = &self.tracer.hand.traced;
                 let path = *traced.paths.last()?;
                 let disk = |k: u32| {
                     let keypoint = &traced.keypoints[k as usize];
                     (keypoint.position, keypoint.radius)
                 };
-                let search = self.tracer.search.as_ref();
+                let search = self.tracer.hand.search.as_ref();
                 Some(Ok(Step {
                     from: disk(path.from),
                     to: disk(path.to),

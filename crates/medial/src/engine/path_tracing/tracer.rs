@@ -1,14 +1,13 @@
 use std::ops::Range;
 
-use super::chain::Passed;
-use super::contacts::{Contacts, follows};
-use super::finish::{Mark, Traced};
+use super::finish::Mark;
 use super::gaps::Gaps;
+use super::hand::{Arrival, Hand, from_least, openings, path};
 use super::search::{Found, Search, Start};
-use crate::axis::{KeypointKind, MedialAxis, Path};
+use crate::axis::MedialAxis;
 use crate::domain::{Corner, Domain, Site};
 use crate::engine::EngineError;
-use crate::geom::{Point, TouchingDisk};
+use crate::engine::watch::Watch;
 
 /// A path that waits to be traced.
 #[derive(Clone, Copy, Debug)]
@@ -24,7 +23,7 @@ struct Pending {
 
 /// How a polygon is traced; each way takes longer than the one before and trusts less.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-enum Care {
+pub(super) enum Care {
     /// Chains of transitions at once; that no ring was lost is counted in the end.
     Quick,
     /// The same, every piece of a path searched for whole rings.
@@ -35,12 +34,11 @@ enum Care {
 
 /// The tracing, one path at a time; the paper's stack of paths instead of recursion.
 pub(super) struct Tracer<'a> {
-    domain: &'a Domain,
     /// Walks of each polygon.
     polygons: Vec<Range<usize>>,
-    /// Polygon that is traced next, and the search in the one before.
+    /// Polygon that is traced next; the hand searches in the one before.
     current: usize,
-    pub search: Option<Search<'a>>,
+    pub hand: Hand<'a>,
     /// Convex corners where components of the current polygon start.
     seeds: Vec<u32>,
     stack: Vec<Pending>,
@@ -54,32 +52,46 @@ pub(super) struct Tracer<'a> {
     most: usize,
     /// What was traced before the current polygon.
     before: Mark,
-    pub traced: Traced,
     /// How the polygons are traced, and how the current one is.
     least_care: Care,
     care: Care,
 }
 
+/// The walks of each polygon of a domain.
+pub(super) fn polygons(domain: &Domain) -> Result<Vec<Range<usize>>, EngineError> {
+    let n_edges = domain.edges().len();
+    if n_edges > (u32::MAX / 16) as usize {
+        return Err(EngineError::TooLarge { n_edges });
+    }
+    let mut polygons: Vec<Range<usize>> = Vec::new();
+    for (k, walk) in domain.walks().iter().enumerate() {
+        match polygons.last_mut() {
+            Some(last) if domain.walks()[last.start].polygon == walk.polygon => last.end = k + 1,
+            _ => polygons.push(k..k + 1),
+        }
+    }
+    Ok(polygons)
+}
+
+/// The convex corner at which a walk around a component is begun.
+pub(super) fn seed(domain: &Domain, walk: usize) -> Option<u32> {
+    let walk = &domain.walks()[walk];
+    let mut corners = walk.first..walk.first + walk.len;
+    corners.find(|&k| domain.edge(k).corner == Corner::Convex).filter(|_| !walk.hole)
+}
+
 impl<'a> Tracer<'a> {
-    pub fn new(domain: &'a Domain) -> Result<Self, EngineError> {
-        let n_edges = domain.edges().len();
-        if n_edges > (u32::MAX / 16) as usize {
-            return Err(EngineError::TooLarge { n_edges });
-        }
-        let mut polygons: Vec<Range<usize>> = Vec::new();
-        for (k, walk) in domain.walks().iter().enumerate() {
-            match polygons.last_mut() {
-                Some(last) if domain.walks()[last.start].polygon == walk.polygon => {
-                    last.end = k + 1;
-                }
-                _ => polygons.push(k..k + 1),
-            }
-        }
-        Ok(Self {
-            domain,
+    pub fn new(domain: &'a Domain, watch: Watch<'a>) -> Result<Self, EngineError> {
+        watch.check()?;
+        Ok(Self::over(polygons(domain)?, Hand::new(domain, watch)))
+    }
+
+    /// The tracing of some polygons.
+    pub fn over(polygons: Vec<Range<usize>>, hand: Hand<'a>) -> Self {
+        Self {
             polygons,
             current: 0,
-            search: None,
+            hand,
             seeds: Vec::new(),
             stack: Vec::new(),
             gaps: None,
@@ -87,16 +99,14 @@ impl<'a> Tracer<'a> {
             first_walk: 0,
             most: 0,
             before: Mark::default(),
-            traced: Traced::default(),
             least_care: Care::Quick,
             care: Care::Quick,
-        })
+        }
     }
 
-    /// The same, every path looked for by itself.
-    pub fn one_by_one(domain: &'a Domain) -> Result<Self, EngineError> {
-        let tracer = Self::new(domain)?;
-        Ok(Self { least_care: Care::Single, care: Care::Single, ..tracer })
+    /// The same with more care from the beginning.
+    pub fn with_care(self, care: Care) -> Self {
+        Self { least_care: care, care, ..self }
     }
 
     /// Traces on to the next keypoint that is no plain transition; false when all is done.
@@ -115,16 +125,14 @@ impl<'a> Tracer<'a> {
                 }
             }
             if let Some(corner) = self.seeds.pop() {
-                let keypoint = self.add_end(corner);
-                let edge = self.domain.edge(corner);
-                let start = Start { centre: edge.start, radius: 0.0, doubt: 0.0, triple: None };
-                let (right, left) = (Site::edge(corner), Site::edge(edge.prev));
+                let keypoint = self.hand.add_end(corner);
+                let (right, left, start) = self.hand.corner(corner);
                 self.stack.push(Pending { keypoint, right, left, gap: None, start });
                 continue;
             }
             if self.met.contains(&false) {
                 // A ring that hides between two empty disks governs nothing.
-                let place = self.domain.edge(0).start;
+                let place = self.hand.domain.edge(0).start;
                 self.met.clear();
                 self.start_again(EngineError::Internal { stage: "counting rings", place })?;
                 continue;
@@ -143,7 +151,7 @@ impl<'a> Tracer<'a> {
             (EngineError::Internal { .. }, Care::Rings) => Care::Single,
             _ => return Err(error),
         };
-        self.traced.go_back(self.before);
+        self.hand.traced.go_back(self.before);
         self.stack.clear();
         self.seeds.clear();
         self.met.clear();
@@ -153,19 +161,15 @@ impl<'a> Tracer<'a> {
     }
 
     fn enter_polygon(&mut self, walks: Range<usize>) {
-        let domain = self.domain;
-        self.before = self.traced.mark();
+        self.before = self.hand.traced.mark();
+        let Hand { domain, watch, .. } = &self.hand;
         let all = &domain.walks()[walks.clone()];
         let loops = all.iter().any(|w| w.hole);
         self.gaps = loops.then(|| {
             let n_edges: u32 = all.iter().map(|w| w.len).sum();
             Gaps::new(2 * all[0].first, 2 * n_edges)
         });
-        for walk in all.iter().rev().filter(|w| !w.hole) {
-            let convex = (walk.first..walk.first + walk.len)
-                .find(|&k| domain.edge(k).corner == Corner::Convex);
-            self.seeds.extend(convex);
-        }
+        self.seeds.extend(walks.clone().rev().filter_map(|walk| seed(domain, walk)));
         self.met.clear();
         if loops {
             // Outer rings meet the axis at their convex corners.
@@ -175,53 +179,44 @@ impl<'a> Tracer<'a> {
         // An edge and a corner govern at most three each, holes and components some more.
         let n_edges: u32 = all.iter().map(|w| w.len).sum();
         self.most = 8 * n_edges as usize + 64;
-        let mut search = Search::new(domain, walks);
+        let mut search = Search::new(domain, walks, watch.clone());
         search.careful = self.care > Care::Quick;
-        self.search = Some(search);
+        self.hand.single = self.care == Care::Single;
+        self.hand.search = Some(search);
     }
 
     fn trace(&mut self, pending: Pending) -> Result<(), EngineError> {
-        let Pending { mut keypoint, mut right, mut left, start, .. } = pending;
-        let broken = |stage| EngineError::Internal { stage, place: start.centre };
-        let search = self.search.as_mut().ok_or(broken("preparing the search"))?;
-        search.mend_tree();
-        let chased =
-            if self.care == Care::Single { None } else { search.chase(right, left, start) };
-        let found = match chased {
-            Some(found) => {
-                (right, left) = search.link;
-                for passed in &search.passed {
-                    let to = self.traced.add_transition(passed);
-                    let Passed { right, left, .. } = *passed;
-                    self.traced.paths.push(path(keypoint, to, right, left));
-                    keypoint = to;
-                }
-                found
-            }
-            None => search.find(right, left, start)?,
-        };
+        let Pending { keypoint, right, left, start, .. } = pending;
+        let Arrival { from, right, left, found } =
+            self.hand.follow(keypoint, right, left, start)?;
         let to = match found {
-            Found::Corner(corner) => self.add_end(corner),
+            Found::Corner(corner) => self.hand.add_end(corner),
             Found::Disk { disk, triple, contacts, fixed } => {
-                let list: Contacts = from_least(&contacts).copied().collect();
+                let list = from_least(&contacts);
                 // The path seen from its other end has its governors the other way round.
-                let known = self.gaps.as_mut().and_then(|gaps| {
-                    gaps.close(left, right, |k| self.traced.has_governors(k, &list))
-                });
+                let traced = &self.hand.traced;
+                let known = self
+                    .gaps
+                    .as_mut()
+                    .and_then(|gaps| gaps.close(left, right, |k| traced.has_governors(k, &list)));
                 match known {
                     Some(to) => to,
                     None => {
-                        let to = self.add_keypoint(&disk, triple, &list, fixed);
-                        self.leave(to, &disk, triple, &contacts, right, left)
-                            .ok_or(broken("closing a path"))?;
+                        let to = self.hand.add_keypoint(&disk, triple, &list, fixed);
+                        let start = Start { triple: Some(triple), ..Start::at(&disk) };
+                        self.leave(to, start, &list, right, left).ok_or(EngineError::Internal {
+                            stage: "closing a path",
+                            place: start.centre,
+                        })?;
                         to
                     }
                 }
             }
         };
-        self.traced.paths.push(path(keypoint, to, right, left));
-        if self.traced.since(self.before) > self.most {
-            return Err(broken("counting keypoints"));
+        self.hand.traced.paths.push(path(from, to, right, left));
+        if self.hand.traced.since(self.before) > self.most {
+            let stage = "counting keypoints";
+            return Err(EngineError::Internal { stage, place: start.centre });
         }
         Ok(())
     }
@@ -231,87 +226,33 @@ impl<'a> Tracer<'a> {
     fn leave(
         &mut self,
         keypoint: u32,
-        disk: &TouchingDisk,
-        triple: [Site; 3],
-        contacts: &[Site],
+        start: Start,
+        list: &[Site],
         right: Site,
         left: Site,
     ) -> Option<()> {
         if self.gaps.is_some() {
-            for site in contacts {
-                let walk = self.domain.edge(site.index()).walk;
+            for site in list {
+                let walk = self.hand.domain.edge(site.index()).walk;
                 self.met[(walk - self.first_walk) as usize] = true;
             }
         }
-        let n = contacts.len();
-        let start = Start { triple: Some(triple), ..Start::at(disk) };
-        let mut arrived = false;
-        let mut n_gaps = 0;
+        let openings = openings(self.hand.domain, list);
+        let arrived = openings.iter().position(|&o| o == (left, right))?;
         // What follows the arrival is traced first.
-        for k in (0..n).rev() {
-            let (r, l) = (contacts[k], contacts[(k + 1) % n]);
-            // Neighbours on the boundary share their footpoint: one run, no path between them.
-            if follows(self.domain, r, l) {
-                continue;
-            }
-            n_gaps += 1;
-            if (r, l) == (left, right) && !arrived {
-                arrived = true;
-                continue;
-            }
-            let gap = self.gaps.as_mut().map(|gaps| gaps.open(keypoint, r, l));
-            self.stack.push(Pending { keypoint, right: r, left: l, gap, start });
+        let (before, after) = (&openings[..arrived], &openings[arrived + 1..]);
+        for &(right, left) in before.iter().rev().chain(after.iter().rev()) {
+            let gap = self.gaps.as_mut().map(|gaps| gaps.open(keypoint, right, left));
+            self.stack.push(Pending { keypoint, right, left, gap, start });
         }
-        self.traced.keypoints[keypoint as usize].kind =
-            if n_gaps == 2 { KeypointKind::Transition } else { KeypointKind::Junction };
-        arrived.then_some(())
-    }
-
-    /// Adds the end keypoint in the convex corner at the start of an edge.
-    fn add_end(&mut self, corner: u32) -> u32 {
-        let edge = self.domain.edge(corner);
-        let (a, b) = (Site::edge(edge.prev), Site::edge(corner));
-        self.traced.add(edge.start, 0.0, KeypointKind::End, &[a.min(b), a.max(b)])
-    }
-
-    fn add_keypoint(
-        &mut self,
-        disk: &TouchingDisk,
-        triple: [Site; 3],
-        list: &[Site],
-        fixed: bool,
-    ) -> u32 {
-        // The position depends on the governors only, not on how the keypoint was found.
-        let own = match *list {
-            _ if fixed => Some(*disk),
-            [a, b, c] => TouchingDisk::touching(&self.domain.governors([a, b, c])),
-            _ => None,
-        };
-        self.traced.add_disk(own.as_ref(), disk, triple, list)
+        self.hand.set_kind(keypoint, openings.len());
+        Some(())
     }
 
     /// The axis: every position computed as precisely as promised.
     pub fn finish(self) -> Result<MedialAxis, EngineError> {
-        self.traced.finish(self.domain)
-    }
-}
-
-fn path(from: u32, to: u32, right: Site, left: Site) -> Path {
-    Path { from, to, left: left.0, right: right.0 }
-}
-
-/// A cyclic list from its smallest member on.
-pub(super) fn from_least(list: &[Site]) -> impl Iterator<Item = &Site> {
-    let least = (0..list.len()).min_by_key(|&k| list[k]).unwrap_or(0);
-    list[least..].iter().chain(&list[..least])
-}
-
-impl Start {
-    /// Where a path starts that leaves this disk.
-    pub fn at(disk: &TouchingDisk) -> Self {
-        let centre = disk.position();
-        let size = |p: Point| p.x.abs() + p.y.abs();
-        let rounding = f64::EPSILON * (size(centre) + size(disk.origin));
-        Self { centre, radius: disk.radius, doubt: disk.bound + rounding, triple: None }
+        let Hand { domain, traced, watch, search, .. } = self.hand;
+        drop(search);
+        traced.finish(domain, &watch)
     }
 }

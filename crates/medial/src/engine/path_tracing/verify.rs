@@ -117,7 +117,10 @@ impl<'s, 'a> Verify<'s, 'a> {
 
     pub fn run(&mut self) {
         let hidden = self.gap.front.map_or(Hidden::default(), |f| f.hidden());
-        self.search.tree.visit(hidden, self);
+        let search = self.search;
+        let entered = search.tree.visit(hidden, self);
+        let (nodes, visits) = search.work.get();
+        search.work.set((nodes + entered, visits + 1));
     }
 
     fn look_into(&mut self, disk: TouchingDisk) {
@@ -281,6 +284,9 @@ impl<'s, 'a> Verify<'s, 'a> {
         // Of nearly equal disks the smallest: each one that cuts the present one replaces it.
         let mut earlier: Option<(Site, ExactDisk)> = None;
         for &edge in &self.doubtful {
+            if search.watch.is_over() {
+                return Verdict::OffEdge;
+            }
             let disk = earlier.as_ref().map(|e| &e.1).or(exact.as_ref());
             let Some(disk) = disk else { return Verdict::OffEdge };
             match search.touch(disk, edge) {

@@ -1,0 +1,38 @@
+use std::num::NonZeroUsize;
+use std::sync::atomic::AtomicBool;
+use std::time::Instant;
+
+/// How an engine works: never what it gives.
+///
+/// The default is one thread and no limit.
+///
+/// ```
+/// use medial::domain::{self, Domain};
+/// use medial::engine::{EngineError, Options, path_tracing_with};
+/// use medial::geom::Point;
+/// use std::time::Instant;
+///
+/// let triangle = [(0., 0.), (4., 0.), (0., 3.)].map(|(x, y)| Point::new(x, y));
+/// let domain = Domain::from_polygons(&[vec![triangle.to_vec()]], &domain::Options::default())?;
+/// // A deadline that has passed already.
+/// let options = Options { deadline: Some(Instant::now()), ..Options::default() };
+/// assert_eq!(path_tracing_with(&domain, &options), Err(EngineError::TimeLimit));
+/// # Ok::<(), domain::DomainError>(())
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct Options<'a> {
+    /// Threads that share the work, the calling one among them; see `alone_below`.
+    pub threads: NonZeroUsize,
+    /// Set by another thread when the axis is wanted no more.
+    pub cancel: Option<&'a AtomicBool>,
+    /// When to give up.
+    pub deadline: Option<Instant>,
+    /// Domains and polygons of fewer edges are traced by one thread alone.
+    pub alone_below: usize,
+}
+
+impl Default for Options<'_> {
+    fn default() -> Self {
+        Self { threads: NonZeroUsize::MIN, cancel: None, deadline: None, alone_below: 10_000 }
+    }
+}

@@ -1,0 +1,132 @@
+use smallvec::SmallVec;
+
+use super::chain::Passed;
+use super::contacts::{Contacts, follows};
+use super::finish::Traced;
+use super::search::{Found, Search, Start};
+use crate::axis::{KeypointKind, Path};
+use crate::domain::{Domain, Site};
+use crate::engine::EngineError;
+use crate::engine::watch::Watch;
+use crate::geom::{Point, TouchingDisk};
+
+/// Neighbouring contacts of a keypoint, between which a path leaves.
+pub(super) type Openings = SmallVec<[(Site, Site); 4]>;
+
+/// What traces one path after the other and takes note of it.
+pub(super) struct Hand<'a> {
+    pub domain: &'a Domain,
+    pub search: Option<Search<'a>>,
+    pub traced: Traced,
+    /// Whether every path is looked for by itself.
+    pub single: bool,
+    pub watch: Watch<'a>,
+}
+
+/// Where a path ends that has passed some transitions.
+pub(super) struct Arrival {
+    /// The last keypoint before.
+    pub from: u32,
+    /// Governors since then.
+    pub right: Site,
+    pub left: Site,
+    pub found: Found,
+}
+
+impl<'a> Hand<'a> {
+    pub fn new(domain: &'a Domain, watch: Watch<'a>) -> Self {
+        Self { domain, search: None, traced: Traced::default(), single: false, watch }
+    }
+
+    /// Follows the path that leaves `start`, which is keypoint number `from`, to the next keypoint
+    /// that is no plain transition, and takes note of all but its last piece.
+    pub fn follow(
+        &mut self,
+        mut from: u32,
+        right: Site,
+        left: Site,
+        start: Start,
+    ) -> Result<Arrival, EngineError> {
+        self.watch.check()?;
+        let broken = EngineError::Internal { stage: "preparing the search", place: start.centre };
+        let search = self.search.as_mut().ok_or(broken)?;
+        search.mend_tree();
+        let chased = if self.single { None } else { search.chase(right, left, start) };
+        let Some(found) = chased else {
+            let found = search.find(right, left, start)?;
+            return Ok(Arrival { from, right, left, found });
+        };
+        let (last_right, last_left) = search.link;
+        for passed in &search.passed {
+            let to = self.traced.add_transition(passed);
+            let Passed { right, left, .. } = *passed;
+            self.traced.paths.push(path(from, to, right, left));
+            from = to;
+        }
+        Ok(Arrival { from, right: last_right, left: last_left, found })
+    }
+
+    /// Adds the end keypoint in the convex corner at the start of an edge.
+    pub fn add_end(&mut self, corner: u32) -> u32 {
+        let edge = self.domain.edge(corner);
+        let (a, b) = (Site::edge(edge.prev), Site::edge(corner));
+        self.traced.add(edge.start, 0.0, KeypointKind::End, &[a.min(b), a.max(b)])
+    }
+
+    /// Adds a keypoint with these governors; `fixed` tells whether its disk depends on them only.
+    pub fn add_keypoint(
+        &mut self,
+        disk: &TouchingDisk,
+        triple: [Site; 3],
+        list: &[Site],
+        fixed: bool,
+    ) -> u32 {
+        // The position depends on the governors only, not on how the keypoint was found.
+        let own = match *list {
+            _ if fixed => Some(*disk),
+            [a, b, c] => TouchingDisk::touching(&self.domain.governors([a, b, c])),
+            _ => None,
+        };
+        self.traced.add_disk(own.as_ref(), disk, triple, list)
+    }
+
+    /// What a keypoint with these openings is.
+    pub fn set_kind(&mut self, keypoint: u32, n_openings: usize) {
+        self.traced.keypoints[keypoint as usize].kind =
+            if n_openings == 2 { KeypointKind::Transition } else { KeypointKind::Junction };
+    }
+
+    /// The start of the path in the convex corner at the start of an edge, and its governors.
+    pub fn corner(&self, corner: u32) -> (Site, Site, Start) {
+        let edge = self.domain.edge(corner);
+        let start = Start { centre: edge.start, radius: 0.0, doubt: 0.0, triple: None };
+        (Site::edge(corner), Site::edge(edge.prev), start)
+    }
+}
+
+/// The neighbouring contacts of a keypoint that have a path between them, in the order given.
+pub(super) fn openings(domain: &Domain, contacts: &[Site]) -> Openings {
+    let pairs = contacts.iter().zip(contacts.iter().cycle().skip(1));
+    // Neighbours on the boundary share their footpoint: one run, no path between them.
+    pairs.map(|(&r, &l)| (r, l)).filter(|&(r, l)| !follows(domain, r, l)).collect()
+}
+
+pub(super) fn path(from: u32, to: u32, right: Site, left: Site) -> Path {
+    Path { from, to, left: left.0, right: right.0 }
+}
+
+/// A cyclic list from its smallest member on.
+pub(super) fn from_least(list: &[Site]) -> Contacts {
+    let least = (0..list.len()).min_by_key(|&k| list[k]).unwrap_or(0);
+    list[least..].iter().chain(&list[..least]).copied().collect()
+}
+
+impl Start {
+    /// Where a path starts that leaves this disk.
+    pub fn at(disk: &TouchingDisk) -> Self {
+        let centre = disk.position();
+        let size = |p: Point| p.x.abs() + p.y.abs();
+        let rounding = f64::EPSILON * (size(centre) + size(disk.origin));
+        Self { centre, radius: disk.radius, doubt: disk.bound + rounding, triple: None }
+    }
+}
