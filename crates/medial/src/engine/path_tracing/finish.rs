@@ -1,10 +1,11 @@
 //! What was traced, and the axis made of it.
 
 use super::chain::Passed;
+use super::numbers::Numbers;
 use super::positions::position;
 use super::search::Start;
 use crate::axis::{
-    self, Accuracy, Engine, Keypoint, KeypointKind, MedialAxis, Path, Side, SiteKind,
+    self, Accuracy, Engine, Keypoint, KeypointKind, MedialAxis, Path, Side, SiteKind, SiteTable,
 };
 use crate::domain::{Domain, Site};
 use crate::engine::EngineError;
@@ -39,6 +40,18 @@ pub(super) struct Mark {
 }
 
 impl Traced {
+    /// Nothing traced yet, with room for what a domain of so many edges mostly has.
+    ///
+    /// Tables that grow leave room behind that stays in memory.
+    pub fn with_room(n_edges: usize) -> Self {
+        Self {
+            keypoints: Vec::with_capacity(2 * n_edges),
+            governors: Vec::with_capacity(6 * n_edges),
+            paths: Vec::with_capacity(2 * n_edges),
+            rough: Vec::new(),
+        }
+    }
+
     pub fn mark(&self) -> Mark {
         Mark {
             keypoints: self.keypoints.len(),
@@ -120,7 +133,7 @@ impl Traced {
 
     /// The axis: every position computed as precisely as promised.
     pub fn finish(mut self, domain: &Domain) -> Result<MedialAxis, EngineError> {
-        for rough in &self.rough {
+        for rough in std::mem::take(&mut self.rough) {
             let list: Vec<Site> = self.governors_of(rough.keypoint);
             let keypoint = &mut self.keypoints[rough.keypoint as usize];
             let (centre, radius) = (keypoint.position, keypoint.radius);
@@ -129,29 +142,26 @@ impl Traced {
                     .ok_or(EngineError::Internal { stage: "placing a keypoint", place: centre })?;
         }
         // Sites that govern something, numbered in boundary order.
-        let mut number = vec![u32::MAX; 2 * domain.edges().len()];
-        for &site in &self.governors {
-            number[site as usize] = 0;
-        }
-        let n_sites = number.iter().filter(|&&n| n == 0).count();
-        let mut sites: Vec<axis::Site> = Vec::with_capacity(n_sites);
-        for (site, slot) in (0_u32..).map(Site).zip(&mut number) {
-            if *slot == 0 {
-                *slot = sites.len() as u32;
-                sites.push(site_record(domain, site));
-            }
-        }
+        let number = Numbers::new(2 * domain.edges().len(), &self.governors);
         for site in &mut self.governors {
-            *site = number[*site as usize];
+            *site = number.of(*site);
         }
         for path in &mut self.paths {
-            path.left = number[path.left as usize];
-            path.right = number[path.right as usize];
+            path.left = number.of(path.left);
+            path.right = number.of(path.right);
         }
-        drop(number);
         self.keypoints.shrink_to_fit();
         self.governors.shrink_to_fit();
         self.paths.shrink_to_fit();
+        let n_walks = domain.walks().len();
+        let mut sites = SiteTable::with_room(number.len(), domain.edges().len(), n_walks);
+        for site in number.marked() {
+            sites
+                .push(&site_record(domain, Site(site)))
+                .ok_or(EngineError::TooLarge { n_edges: domain.edges().len() })?;
+        }
+        drop(number);
+        sites.shrink();
         MedialAxis::from_tables(
             Engine::PathTracing,
             Side::Interior,

@@ -29,6 +29,7 @@ mod course;
 mod finish;
 mod front;
 mod gaps;
+mod numbers;
 mod order;
 mod positions;
 mod probe;

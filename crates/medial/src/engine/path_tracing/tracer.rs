@@ -87,7 +87,7 @@ impl<'a> Tracer<'a> {
             first_walk: 0,
             most: 0,
             before: Mark::default(),
-            traced: Traced::default(),
+            traced: Traced::with_room(n_edges),
             least_care: Care::Quick,
             care: Care::Quick,
         })
@@ -291,7 +291,10 @@ impl<'a> Tracer<'a> {
 
     /// The axis: every position computed as precisely as promised.
     pub fn finish(self) -> Result<MedialAxis, EngineError> {
-        self.traced.finish(self.domain)
+        // What is not needed any more makes room for the answer.
+        let Self { domain, traced, search, gaps, stack, .. } = self;
+        drop((search, gaps, stack));
+        traced.finish(domain)
     }
 }
 
