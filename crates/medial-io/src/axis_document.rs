@@ -114,7 +114,7 @@ pub fn write(source: &Feature, axis: &MedialAxis) -> String {
         side: axis.side.name().into(),
         feature: source.index,
         id: source.id.as_deref(),
-        sites: axis.sites().iter().map(site_record).collect(),
+        sites: axis.sites().iter().map(|site| site_record(&site)).collect(),
         keypoints: (0u32..)
             .zip(axis.keypoints())
             .map(|(k, keypoint)| KeypointRecord {

@@ -37,7 +37,7 @@ fn curves(axis: &MedialAxis) -> [usize; 3] {
     for path in axis.paths() {
         let corners = [path.left, path.right]
             .iter()
-            .filter(|&&g| axis.sites()[g as usize].kind == SiteKind::Vertex)
+            .filter(|&&g| axis.sites().at(g).kind == SiteKind::Vertex)
             .count();
         count[corners] += 1;
     }

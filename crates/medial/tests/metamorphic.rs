@@ -27,7 +27,7 @@ fn graph(axis: &MedialAxis, map: impl Fn(Point) -> Point, mirror: bool) -> Graph
         [(p.x + 0.0).to_bits(), (p.y + 0.0).to_bits()]
     };
     let place = |number: u32| {
-        let site = &axis.sites()[number as usize];
+        let site = axis.sites().at(number);
         let (a, b) = (map(site.a), map(site.b));
         let (a, b) = if mirror { (b, a) } else { (a, b) };
         let ([ax, ay], [bx, by]) = (bits(a), bits(b));

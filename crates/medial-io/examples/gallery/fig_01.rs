@@ -37,7 +37,7 @@ fn draw() -> Fallible<String> {
     let curve = shape.axis.curve(spine);
     let (regular, radius) = (curve.point_at(0.5), curve.radius_at(0.5));
     panel.disk(regular, radius, DISK);
-    panel.spokes(regular, &shape.axis.path_governors(spine).map(|s| *s));
+    panel.spokes(regular, &shape.axis.path_governors(spine));
     panel.axis(&shape.axis);
     panel.keypoints(&shape.axis);
     panel.point(regular, PURPLE);

@@ -41,7 +41,7 @@ fn draw() -> Fallible<String> {
             for (site, style) in [(wall, EDGE_CELL), (ceiling, EDGE_CELL), (corner, CORNER_CELL)] {
                 let chosen = shape.site(site);
                 if (governor.a, governor.b) == (chosen.a, chosen.b) {
-                    panel.cell(&shape.axis.curve(path), governor, style);
+                    panel.cell(&shape.axis.curve(path), &governor, style);
                 }
             }
         }

@@ -26,7 +26,7 @@ fn draw() -> Fallible<String> {
         let middle = (site.a + site.b) * 0.5;
         let out = (site.a - site.b).perp();
         let out = if out.norm2() > 0.0 { out * (1.0 / out.norm()) } else { Point::new(0.7, 0.7) };
-        panel.label(middle, (out.x * 18.0, out.y * 18.0), INK, &name(axis, site));
+        panel.label(middle, (out.x * 18.0, out.y * 18.0), INK, &name(axis, &site));
     }
     for (k, keypoint) in axis.keypoints().iter().enumerate() {
         let at = keypoint.position;
@@ -44,7 +44,7 @@ fn draw() -> Fallible<String> {
     for path in axis.paths() {
         let (a, b) = (layout[path.from as usize], layout[path.to as usize]);
         panel.line(a, b, AXIS);
-        let [left, right] = axis.path_governors(path).map(|s| name(axis, s));
+        let [left, right] = axis.path_governors(path).map(|s| name(axis, &s));
         panel.small(a * 0.42 + b * 0.58, (0.0, 9.0), MUTED, &format!("{left} {right}"));
     }
     for (k, (keypoint, &at)) in axis.keypoints().iter().zip(&layout).enumerate() {

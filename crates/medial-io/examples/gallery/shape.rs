@@ -109,7 +109,7 @@ impl Shape {
 
     /// Governors of a keypoint.
     pub fn governors(&self, keypoint: u32) -> Vec<axis::Site> {
-        self.axis.governors(keypoint).iter().map(|&g| self.axis.sites()[g as usize]).collect()
+        self.axis.governors(keypoint).iter().map(|&g| self.axis.sites().at(g)).collect()
     }
 
     /// The inward normal of an edge.

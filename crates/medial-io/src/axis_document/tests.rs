@@ -71,7 +71,7 @@ fn documents_satisfy_their_schema() {
 
 #[test]
 fn a_piece_of_a_split_edge_carries_its_part() {
-    let mut sites = samples::rectangle().sites().to_vec();
+    let mut sites: Vec<Site> = samples::rectangle().sites().iter().collect();
     sites[0].part = 2;
     let axis = MedialAxis::from_parts(
         Engine::PathTracing,

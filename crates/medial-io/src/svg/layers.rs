@@ -196,7 +196,7 @@ pub(super) fn zones(canvas: &mut Canvas, scenes: &[Scene]) {
             for path in axis.paths() {
                 for site in axis.path_governors(path) {
                     if site.kind == kind {
-                        zone(&mut data, axis, path, site);
+                        zone(&mut data, axis, path, &site);
                     }
                 }
             }
@@ -216,8 +216,8 @@ pub(super) fn cells(canvas: &mut Canvas, scenes: &[Scene]) {
         let mut cells: Vec<Data> = axis.sites().iter().map(|_| Data::new(&frame)).collect();
         for path in axis.paths() {
             for governor in [path.left, path.right] {
-                let site = &axis.sites()[governor as usize];
-                zone(&mut cells[governor as usize], axis, path, site);
+                let site = axis.sites().at(governor);
+                zone(&mut cells[governor as usize], axis, path, &site);
             }
         }
         let cells: Vec<String> = cells.into_iter().map(|d| d.text).collect();
@@ -267,7 +267,7 @@ pub(super) fn governors(canvas: &mut Canvas, scenes: &[Scene]) {
     canvas.close();
     for scene in numbered {
         for (k, site) in scene.axis.sites().iter().enumerate() {
-            let (at, color) = label_place(&frame, site);
+            let (at, color) = label_place(&frame, &site);
             canvas.text(at, 13.0, Anchor::Middle, color, &k.to_string());
         }
     }

@@ -297,12 +297,7 @@ impl MedialAxis {
             let Keypoint { position, radius, .. } = self.keypoints()[k as usize];
             (position, radius)
         };
-        Curve::new(
-            &sites[path.left as usize],
-            &sites[path.right as usize],
-            end(path.from),
-            end(path.to),
-        )
+        Curve::new(&sites.at(path.left), &sites.at(path.right), end(path.from), end(path.to))
     }
 }
 

@@ -81,7 +81,7 @@ impl MedialAxis {
     /// If the axis has no such keypoint.
     pub fn footpoints(&self, keypoint: u32) -> impl Iterator<Item = Point> {
         let centre = self.keypoints()[keypoint as usize].position;
-        self.governors(keypoint).iter().map(move |&g| self.sites()[g as usize].footpoint(centre))
+        self.governors(keypoint).iter().map(move |&g| self.sites().at(g).footpoint(centre))
     }
 
     /// The shape of a path's curve, told by its governors alone.
@@ -99,8 +99,8 @@ impl MedialAxis {
     /// # Panics
     /// If `path` names a site the axis does not have.
     #[must_use]
-    pub fn path_governors(&self, path: &Path) -> [&Site; 2] {
-        [path.left, path.right].map(|g| &self.sites()[g as usize])
+    pub fn path_governors(&self, path: &Path) -> [Site; 2] {
+        [path.left, path.right].map(|g| self.sites().at(g))
     }
 
     /// The greatest radius of a keypoint, and so of the whole axis; 0 for an empty axis.

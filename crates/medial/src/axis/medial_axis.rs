@@ -1,3 +1,4 @@
+use super::sites::{SiteTable, Sites};
 use crate::geom::Point;
 
 /// The engine that computed an axis; `Display` gives its name in files and commands.
@@ -122,7 +123,7 @@ pub struct MedialAxis {
     pub complete: bool,
     /// Side of the boundary.
     pub side: Side,
-    sites: Vec<Site>,
+    sites: SiteTable,
     keypoints: Vec<Keypoint>,
     governors: Vec<u32>,
     paths: Vec<Path>,
@@ -132,7 +133,7 @@ impl MedialAxis {
     /// The axis with these parts; `keypoints` come with their cyclic governor lists.
     ///
     /// A list starts with its smallest site number. Returns `None` if a number points outside its
-    /// table.
+    /// table, or if the sites have 2³⁰ end points. Sites in boundary order take least memory.
     #[must_use]
     pub fn from_parts<'a>(
         engine: Engine,
@@ -149,6 +150,7 @@ impl MedialAxis {
             table.push(Keypoint::new(position, radius, kind, governors.len() as u32));
             governors.extend_from_slice(list);
         }
+        let sites = SiteTable::of(sites.into_iter())?;
         Self::from_tables(engine, side, accuracy, complete, sites, table, governors, paths)
     }
 
@@ -159,12 +161,12 @@ impl MedialAxis {
         side: Side,
         accuracy: Accuracy,
         complete: bool,
-        sites: Vec<Site>,
+        sites: SiteTable,
         keypoints: Vec<Keypoint>,
         governors: Vec<u32>,
         paths: Vec<Path>,
     ) -> Option<Self> {
-        let (n_sites, n_keypoints) = (sites.len() as u32, keypoints.len() as u32);
+        let (n_sites, n_keypoints) = (sites.len(), keypoints.len() as u32);
         let sound = governors.iter().all(|&g| g < n_sites)
             && paths.iter().all(|p| {
                 p.from < n_keypoints && p.to < n_keypoints && p.left < n_sites && p.right < n_sites
@@ -175,8 +177,8 @@ impl MedialAxis {
 
     /// Boundary elements that govern something.
     #[must_use]
-    pub fn sites(&self) -> &[Site] {
-        &self.sites
+    pub fn sites(&self) -> Sites<'_> {
+        Sites(&self.sites)
     }
 
     /// All keypoints.

@@ -4,6 +4,7 @@ mod curve;
 mod draw;
 mod medial_axis;
 mod names;
+mod sites;
 
 pub use curve::Curve;
 pub use draw::CurveKind;
@@ -12,3 +13,5 @@ pub use medial_axis::{
     Accuracy, Engine, Keypoint, KeypointKind, MedialAxis, Path, Side, Site, SiteKind,
 };
 pub use names::UnknownName;
+pub(crate) use sites::SiteTable;
+pub use sites::{Sites, SitesIter};

@@ -28,8 +28,7 @@ impl<'a> Context<'a> {
         names.sort_unstable();
         let mut sites = Vec::with_capacity(axis.sites().len());
         let mut first_use: Vec<Option<u32>> = vec![None; 2 * domain.edges().len()];
-        for (number, claimed) in axis.sites().iter().enumerate() {
-            let number = number as u32;
+        for (number, claimed) in (0_u32..).zip(axis.sites()) {
             let name = Name {
                 kind: claimed.kind,
                 polygon: claimed.polygon,

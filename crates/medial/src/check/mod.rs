@@ -107,8 +107,8 @@ fn check_idle(context: &Context, defects: &mut Vec<Defect>) {
         used[path.left as usize] = true;
         used[path.right as usize] = true;
     }
-    for (site, _) in used.iter().enumerate().filter(|&(_, &used)| !used) {
-        let at = axis.sites()[site].a;
-        defects.push(Defect::IdleSite { site: site as u32, at });
+    for (site, _) in (0..).zip(&used).filter(|&(_, &used)| !used) {
+        let at = axis.sites().at(site).a;
+        defects.push(Defect::IdleSite { site, at });
     }
 }

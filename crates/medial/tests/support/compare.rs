@@ -53,7 +53,7 @@ pub fn differences(first: &MedialAxis, second: &MedialAxis) -> Vec<String> {
 impl Graph {
     fn of(axis: &MedialAxis) -> Self {
         let name = |number: u32| {
-            let site = &axis.sites()[number as usize];
+            let site = axis.sites().at(number);
             (site.kind, site.polygon, site.ring, site.index, site.part)
         };
         let list = |keypoint: u32| {

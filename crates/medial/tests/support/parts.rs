@@ -31,7 +31,7 @@ impl Parts {
         Self {
             complete: axis.complete,
             accuracy: axis.accuracy,
-            sites: axis.sites().to_vec(),
+            sites: axis.sites().iter().collect(),
             keypoints: keypoints.collect(),
             paths: axis.paths().to_vec(),
         }

@@ -3,10 +3,11 @@
 use std::ops::Range;
 
 use super::chain::Passed;
+use super::numbers::Numbers;
 use super::positions::position;
 use super::search::Start;
 use crate::axis::{
-    self, Accuracy, Engine, Keypoint, KeypointKind, MedialAxis, Path, Side, SiteKind,
+    self, Accuracy, Engine, Keypoint, KeypointKind, MedialAxis, Path, Side, SiteKind, SiteTable,
 };
 use crate::domain::{Domain, Site};
 use crate::engine::EngineError;
@@ -44,6 +45,18 @@ pub(super) struct Mark {
 }
 
 impl Traced {
+    /// Nothing traced yet, with room for what a domain of so many edges mostly has.
+    ///
+    /// Tables that grow leave room behind that stays in memory.
+    pub fn with_room(n_edges: usize) -> Self {
+        Self {
+            keypoints: Vec::with_capacity(2 * n_edges),
+            governors: Vec::with_capacity(6 * n_edges),
+            paths: Vec::with_capacity(2 * n_edges),
+            rough: Vec::new(),
+        }
+    }
+
     pub fn mark(&self) -> Mark {
         Mark {
             keypoints: self.keypoints.len(),
@@ -161,36 +174,27 @@ impl Traced {
     /// The axis, with the sites that govern something numbered in boundary order.
     pub fn number(mut self, domain: &Domain, watch: &Watch<'_>) -> Result<MedialAxis, EngineError> {
         watch.check()?;
-        let mut number = vec![u32::MAX; 2 * domain.edges().len()];
-        for &site in &self.governors {
-            number[site as usize] = 0;
-        }
-        let n_sites = number.iter().filter(|&&n| n == 0).count();
-        let mut sites: Vec<axis::Site> = Vec::with_capacity(n_sites);
-        for (site, slot) in (0_u32..).map(Site).zip(&mut number) {
-            if *slot == 0 {
-                *slot = sites.len() as u32;
-                sites.push(site_record(domain, site));
-            }
-        }
+        let number = Numbers::new(2 * domain.edges().len(), &self.governors);
         for site in &mut self.governors {
-            *site = number[*site as usize];
+            *site = number.of(*site);
         }
         for path in &mut self.paths {
-            path.left = number[path.left as usize];
-            path.right = number[path.right as usize];
+            path.left = number.of(path.left);
+            path.right = number.of(path.right);
         }
-        drop(number);
         self.keypoints.shrink_to_fit();
         self.governors.shrink_to_fit();
         self.paths.shrink_to_fit();
+        let marked = number.marked().map(|site| site_record(domain, Site(site)));
+        let sites = site_table(domain, number.len(), marked)?;
+        drop(number);
         axis_of(sites, self.keypoints, self.governors, self.paths)
     }
 }
 
 /// The axis with these tables.
 pub(super) fn axis_of(
-    sites: Vec<axis::Site>,
+    sites: SiteTable,
     keypoints: Vec<Keypoint>,
     governors: Vec<u32>,
     paths: Vec<Path>,
@@ -206,6 +210,21 @@ pub(super) fn axis_of(
         paths,
     )
     .ok_or(EngineError::Internal { stage: "numbering sites", place: Point::default() })
+}
+
+/// The table of some sites of a domain.
+pub(super) fn site_table(
+    domain: &Domain,
+    n_sites: usize,
+    records: impl Iterator<Item = axis::Site>,
+) -> Result<SiteTable, EngineError> {
+    let n_edges = domain.edges().len();
+    let mut sites = SiteTable::with_room(n_sites, n_edges, domain.walks().len());
+    for record in records {
+        sites.push(&record).ok_or(EngineError::TooLarge { n_edges })?;
+    }
+    sites.shrink();
+    Ok(sites)
 }
 
 pub(super) fn site_record(domain: &Domain, site: Site) -> axis::Site {

@@ -24,28 +24,41 @@ pub(super) struct Gaps {
     base: u32,
     /// First open gap of each site.
     heads: Vec<u32>,
-    /// All gaps, those closed as well.
+    /// Gaps that are not taken, those closed as well.
     gaps: Vec<Open>,
+    /// Numbers of gaps that were taken.
+    free: Vec<u32>,
 }
 
 impl Gaps {
     pub fn new(base: u32, n_sites: u32) -> Self {
-        Self { base, heads: vec![NONE; n_sites as usize], gaps: Vec::new() }
+        Self { base, heads: vec![NONE; n_sites as usize], gaps: Vec::new(), free: Vec::new() }
     }
 
     /// Takes note of an open gap and gives its number.
     pub fn open(&mut self, keypoint: u32, right: Site, left: Site) -> u32 {
-        let number = self.gaps.len() as u32;
         let head = &mut self.heads[(right.0 - self.base) as usize];
-        self.gaps.push(Open { keypoint, right, left, next: *head });
+        let gap = Open { keypoint, right, left, next: *head };
+        let number = match self.free.pop() {
+            Some(number) => {
+                self.gaps[number as usize] = gap;
+                number
+            }
+            None => {
+                self.gaps.push(gap);
+                self.gaps.len() as u32 - 1
+            }
+        };
         *head = number;
         number
     }
 
-    /// Closes a gap by its number; false if it was closed already.
+    /// Closes a gap by its number, which is not used again for it; false if it was closed already.
     pub fn take(&mut self, gap: u32) -> bool {
         let right = self.gaps[gap as usize].right;
-        self.unlink(right, |number, _| number == gap).is_some()
+        let open = self.unlink(right, |number, _| number == gap).is_some();
+        self.free.push(gap);
+        open
     }
 
     /// Closes the gap between two governors at a keypoint for which `same` holds, and gives the

@@ -30,6 +30,7 @@ mod finish;
 mod front;
 mod gaps;
 mod hand;
+mod numbers;
 mod order;
 mod parallel;
 mod positions;

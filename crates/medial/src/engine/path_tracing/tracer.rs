@@ -1,6 +1,6 @@
 use std::ops::Range;
 
-use super::finish::Mark;
+use super::finish::{Mark, Traced};
 use super::gaps::Gaps;
 use super::hand::{Arrival, Hand, from_least, openings, path};
 use super::search::{Found, Search, Start};
@@ -83,7 +83,9 @@ pub(super) fn seed(domain: &Domain, walk: usize) -> Option<u32> {
 impl<'a> Tracer<'a> {
     pub fn new(domain: &'a Domain, watch: Watch<'a>) -> Result<Self, EngineError> {
         watch.check()?;
-        Ok(Self::over(polygons(domain)?, Hand::new(domain, watch)))
+        let mut hand = Hand::new(domain, watch);
+        hand.traced = Traced::with_room(domain.edges().len());
+        Ok(Self::over(polygons(domain)?, hand))
     }
 
     /// The tracing of some polygons.
@@ -251,8 +253,9 @@ impl<'a> Tracer<'a> {
 
     /// The axis: every position computed as precisely as promised.
     pub fn finish(self) -> Result<MedialAxis, EngineError> {
-        let Hand { domain, traced, watch, search, .. } = self.hand;
-        drop(search);
+        // What is not needed any more makes room for the answer.
+        let Self { hand: Hand { domain, traced, watch, search, .. }, gaps, stack, .. } = self;
+        drop((search, gaps, stack));
         traced.finish(domain, &watch)
     }
 }

@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicU32, AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 use std::thread;
 
-use super::super::finish::{Traced, axis_of, site_record};
+use super::super::finish::{Traced, axis_of, site_record, site_table};
 use super::replay::Piece;
 use super::worker::{End, Share};
 use crate::axis::{self, MedialAxis, Path};
@@ -88,7 +88,9 @@ pub(super) fn gather(
         governors.push(group.governors);
         paths.push(group.paths);
     }
-    axis_of(joined(sites), joined(keypoints), joined(governors), joined(paths)).map(Some)
+    let n_sites = sites.iter().map(Vec::len).sum();
+    let sites = site_table(domain, n_sites, sites.into_iter().flatten())?;
+    axis_of(sites, joined(keypoints), joined(governors), joined(paths)).map(Some)
 }
 
 /// The pieces in as many groups of about the same size.

@@ -1,0 +1,326 @@
+//! The sites of an axis: a corner once, however many sites meet there, and a few numbers a site.
+
+use std::fmt;
+use std::iter::FusedIterator;
+use std::ops::Range;
+
+use super::{Site, SiteKind};
+use crate::geom::Point;
+
+/// What keeps the sites: eight bytes each, and their points.
+///
+/// A site along a walk starts where the one before it ends, so points are numbered as they come,
+/// and an edge mostly ends at the point after the one where it starts.
+#[derive(Clone, Default)]
+pub(crate) struct SiteTable {
+    points: Vec<Point>,
+    records: Vec<Record>,
+    /// Runs of sites in one ring.
+    runs: Vec<Run>,
+    /// The few sites that need more to be said, in their order.
+    listed: Vec<Listed>,
+    /// First point of the walk that the next site may go on with.
+    walk: Option<u32>,
+}
+
+#[derive(Clone, Copy)]
+struct Record {
+    /// Number of the start, with `VERTEX` for corners and `LISTED`.
+    start: u32,
+    index: u32,
+}
+
+const VERTEX: u32 = 1 << 31;
+const LISTED: u32 = 1 << 30;
+const POINT: u32 = LISTED - 1;
+
+/// Sites from `first` on, up to the next run.
+#[derive(Clone, Copy)]
+struct Run {
+    first: u32,
+    polygon: u32,
+    ring: u32,
+}
+
+/// A site that is a piece of an edge, or does not end at the next point.
+#[derive(Clone, Copy)]
+struct Listed {
+    site: u32,
+    part: u32,
+    end: u32,
+}
+
+impl SiteTable {
+    /// An empty table with room for some sites, with so many points, of so many walks.
+    pub fn with_room(sites: usize, points: usize, walks: usize) -> Self {
+        Self {
+            points: Vec::with_capacity(points),
+            records: Vec::with_capacity(sites),
+            runs: Vec::with_capacity(walks),
+            listed: Vec::with_capacity(walks),
+            walk: None,
+        }
+    }
+
+    /// The table of all these; `None` if they are too many to be numbered.
+    pub fn of(sites: impl ExactSizeIterator<Item = Site>) -> Option<Self> {
+        let mut table = Self::with_room(sites.len(), 0, 0);
+        for site in sites {
+            table.push(&site)?;
+        }
+        table.shrink();
+        Some(table)
+    }
+
+    /// Adds a site; `None` if there are too many points. Takes least room for sites in boundary
+    /// order.
+    pub fn push(&mut self, site: &Site) -> Option<()> {
+        if self.points.len() + 2 > POINT as usize {
+            return None;
+        }
+        let number = u32::try_from(self.records.len()).ok().filter(|&k| k < u32::MAX)?;
+        let (walk, start) = match (self.walk, self.points.last()) {
+            (Some(walk), Some(&last)) if same(last, site.a) => (walk, self.points.len() as u32 - 1),
+            _ => {
+                let start = self.add(site.a);
+                (start, start)
+            }
+        };
+        self.walk = Some(walk);
+        let end = if same(site.b, site.a) {
+            start
+        } else if same(site.b, self.points[walk as usize]) {
+            // Once around.
+            self.walk = None;
+            walk
+        } else {
+            self.add(site.b)
+        };
+        let (flag, usual) = match site.kind {
+            SiteKind::Vertex => (VERTEX, start),
+            SiteKind::Edge => (0, start + 1),
+        };
+        let mut record = Record { start: start | flag, index: site.index };
+        if end != usual || site.part != 0 {
+            record.start |= LISTED;
+            self.listed.push(Listed { site: number, part: site.part, end });
+        }
+        self.records.push(record);
+        let Site { polygon, ring, .. } = *site;
+        if self.runs.last().is_none_or(|run| (run.polygon, run.ring) != (polygon, ring)) {
+            self.runs.push(Run { first: number, polygon, ring });
+        }
+        Some(())
+    }
+
+    fn add(&mut self, point: Point) -> u32 {
+        self.points.push(point);
+        self.points.len() as u32 - 1
+    }
+
+    /// Gives back the room that was not needed.
+    pub fn shrink(&mut self) {
+        self.points.shrink_to_fit();
+        self.records.shrink_to_fit();
+        self.runs.shrink_to_fit();
+        self.listed.shrink_to_fit();
+    }
+
+    pub fn len(&self) -> u32 {
+        // No more were added than can be numbered.
+        self.records.len() as u32
+    }
+
+    fn at(&self, number: u32) -> Site {
+        let Record { start, index } = self.records[number as usize];
+        let (kind, usual) = match start & VERTEX {
+            0 => (SiteKind::Edge, (start & POINT) + 1),
+            _ => (SiteKind::Vertex, start & POINT),
+        };
+        let (part, end) = match start & LISTED {
+            0 => (0, usual),
+            _ => {
+                let found = self.listed.partition_point(|l| l.site < number);
+                let Listed { part, end, .. } = self.listed[found];
+                (part, end)
+            }
+        };
+        // The first run starts with the first site.
+        let run = self.runs.partition_point(|run| run.first <= number) - 1;
+        let Run { polygon, ring, .. } = self.runs[run];
+        let (a, b) = (self.points[(start & POINT) as usize], self.points[end as usize]);
+        Site { kind, polygon, ring, index, part, a, b }
+    }
+}
+
+/// The same point, with the same signs of zeros.
+fn same(p: Point, q: Point) -> bool {
+    (p.x.to_bits(), p.y.to_bits()) == (q.x.to_bits(), q.y.to_bits())
+}
+
+impl PartialEq for SiteTable {
+    fn eq(&self, other: &Self) -> bool {
+        Sites(self).iter().eq(Sites(other))
+    }
+}
+
+impl fmt::Debug for SiteTable {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_list().entries(Sites(self)).finish()
+    }
+}
+
+/// The sites of an axis, numbered from 0; a [`Site`] is put together when it is asked for.
+///
+/// Coordinates are in units of the input. An axis keeps 8 bytes for each site and 16 for each
+/// corner, and a few for each ring. Asking for one site takes logarithmic time in the number of
+/// rings.
+#[derive(Clone, Copy, PartialEq)]
+pub struct Sites<'a>(pub(super) &'a SiteTable);
+
+impl<'a> Sites<'a> {
+    /// How many there are.
+    #[must_use]
+    pub fn len(self) -> usize {
+        self.0.records.len()
+    }
+
+    /// Whether there are none.
+    #[must_use]
+    pub fn is_empty(self) -> bool {
+        self.len() == 0
+    }
+
+    /// Site number `number`, counted as [`Path`](super::Path) and
+    /// [`MedialAxis::governors`](super::MedialAxis::governors) count.
+    ///
+    /// # Panics
+    /// If the axis has no such site.
+    #[must_use]
+    pub fn at(self, number: u32) -> Site {
+        self.0.at(number)
+    }
+
+    /// All of them, in their order.
+    #[must_use]
+    pub fn iter(self) -> SitesIter<'a> {
+        SitesIter { sites: self, rest: 0..self.0.len() }
+    }
+}
+
+impl fmt::Debug for Sites<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.0.fmt(f)
+    }
+}
+
+impl<'a> IntoIterator for Sites<'a> {
+    type Item = Site;
+    type IntoIter = SitesIter<'a>;
+
+    fn into_iter(self) -> SitesIter<'a> {
+        self.iter()
+    }
+}
+
+/// The sites of an axis, one after the other, by value.
+#[derive(Clone, Debug)]
+pub struct SitesIter<'a> {
+    sites: Sites<'a>,
+    rest: Range<u32>,
+}
+
+impl Iterator for SitesIter<'_> {
+    type Item = Site;
+
+    fn next(&mut self) -> Option<Site> {
+        self.rest.next().map(|k| self.sites.at(k))
+    }
+
+    fn size_hint(&self) -> (usize, Option<usize>) {
+        let n = self.rest.len();
+        (n, Some(n))
+    }
+}
+
+impl DoubleEndedIterator for SitesIter<'_> {
+    fn next_back(&mut self) -> Option<Site> {
+        self.rest.next_back().map(|k| self.sites.at(k))
+    }
+}
+
+impl ExactSizeIterator for SitesIter<'_> {}
+
+impl FusedIterator for SitesIter<'_> {}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn site(kind: SiteKind, ring: u32, index: u32, a: (f64, f64), b: (f64, f64)) -> Site {
+        let (a, b) = (Point::new(a.0, a.1), Point::new(b.0, b.1));
+        Site { kind, polygon: 7, ring, index, part: 0, a, b }
+    }
+
+    /// A triangle around a triangle, whose corners are sites.
+    fn rings() -> Vec<Site> {
+        let outer = [(0.0, 0.0), (9.0, 0.0), (0.0, 9.0)];
+        let inner = [(1.0, 1.0), (1.0, 2.0), (2.0, 1.0)];
+        let mut sites = Vec::new();
+        for k in 0..3 {
+            sites.push(site(SiteKind::Edge, 0, k as u32, outer[k], outer[(k + 1) % 3]));
+        }
+        for k in 0..3 {
+            sites.push(site(SiteKind::Vertex, 1, k as u32, inner[k], inner[k]));
+            sites.push(site(SiteKind::Edge, 1, k as u32, inner[k], inner[(k + 1) % 3]));
+        }
+        sites
+    }
+
+    fn kept(sites: &[Site]) -> SiteTable {
+        SiteTable::of(sites.iter().copied()).expect("few")
+    }
+
+    #[test]
+    fn sites_in_boundary_order_share_their_points() {
+        let sites = rings();
+        let table = kept(&sites);
+        assert!(Sites(&table).iter().eq(sites.iter().copied()));
+        assert!(Sites(&table).iter().rev().eq(sites.iter().rev().copied()));
+        assert_eq!((Sites(&table).len(), table.points.len(), table.runs.len()), (9, 6, 2));
+        // The edge that closes each ring.
+        assert_eq!(table.listed.len(), 2);
+    }
+
+    #[test]
+    fn sites_in_any_order_with_any_ends_are_kept() {
+        let mut sites = rings();
+        sites.reverse();
+        sites.swap(1, 6);
+        sites[0].part = 3;
+        sites[2].kind = SiteKind::Vertex;
+        sites[3].b = sites[3].a;
+        sites[5].a = Point::new(-0.0, 0.0);
+        sites[7].index = u32::MAX;
+        sites.push(sites[4]);
+        let table = kept(&sites);
+        for (number, site) in (0..).zip(&sites) {
+            assert_eq!(Sites(&table).at(number), *site);
+            assert!(same(Sites(&table).at(number).a, site.a));
+        }
+        let mut other = sites.clone();
+        other[0].part = 2;
+        assert_ne!(kept(&other), table);
+        assert_eq!(kept(&sites), table);
+    }
+
+    #[test]
+    fn a_walk_that_meets_its_first_point_on_the_way_is_kept() {
+        // Two triangles that touch in the point where the walk starts.
+        let ring = [(0.0, 0.0), (2.0, -1.0), (2.0, 1.0), (0.0, 0.0), (-2.0, 1.0), (-2.0, -1.0)];
+        let sites: Vec<Site> =
+            (0..6).map(|k| site(SiteKind::Edge, 0, k as u32, ring[k], ring[(k + 1) % 6])).collect();
+        let table = kept(&sites);
+        assert!(Sites(&table).iter().eq(sites.iter().copied()));
+    }
+}
