@@ -75,6 +75,7 @@ impl<'a> Tracer<'a> {
                 _ => polygons.push(k..k + 1),
             }
         }
+        let n_holes = domain.walks().iter().filter(|walk| walk.hole).count();
         Ok(Self {
             domain,
             polygons,
@@ -87,7 +88,7 @@ impl<'a> Tracer<'a> {
             first_walk: 0,
             most: 0,
             before: Mark::default(),
-            traced: Traced::with_room(n_edges),
+            traced: Traced::with_room(n_edges, n_holes),
             least_care: Care::Quick,
             care: Care::Quick,
         })
