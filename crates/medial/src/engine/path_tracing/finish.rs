@@ -45,14 +45,16 @@ pub(super) struct Mark {
 }
 
 impl Traced {
-    /// Nothing traced yet, with room for what a domain of so many edges mostly has.
+    /// Nothing traced yet, with room for what a domain of so many edges and holes has at most,
+    /// unless rings touch: two keypoints an edge and two a hole.
     ///
-    /// Tables that grow leave room behind that stays in memory.
-    pub fn with_room(n_edges: usize) -> Self {
+    /// Tables that grow may leave what they were behind in memory; room is not, until it is used.
+    pub fn with_room(n_edges: usize, n_holes: usize) -> Self {
+        let n_keypoints = 2 * (n_edges + n_holes);
         Self {
-            keypoints: Vec::with_capacity(2 * n_edges),
-            governors: Vec::with_capacity(6 * n_edges),
-            paths: Vec::with_capacity(2 * n_edges),
+            keypoints: Vec::with_capacity(n_keypoints),
+            governors: Vec::with_capacity(3 * n_keypoints),
+            paths: Vec::with_capacity(n_keypoints + n_holes),
             rough: Vec::new(),
         }
     }

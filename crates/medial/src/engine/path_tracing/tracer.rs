@@ -84,7 +84,8 @@ impl<'a> Tracer<'a> {
     pub fn new(domain: &'a Domain, watch: Watch<'a>) -> Result<Self, EngineError> {
         watch.check()?;
         let mut hand = Hand::new(domain, watch);
-        hand.traced = Traced::with_room(domain.edges().len());
+        let n_holes = domain.walks().iter().filter(|walk| walk.hole).count();
+        hand.traced = Traced::with_room(domain.edges().len(), n_holes);
         Ok(Self::over(polygons(domain)?, hand))
     }
 
