@@ -38,6 +38,20 @@ pub struct Times {
     pub judge: Duration,
 }
 
+/// What is being done, for a shape without an end.
+static STAGE: Mutex<&str> = Mutex::new("");
+
+/// What is being done at the moment.
+pub fn stage() -> &'static str {
+    STAGE.lock().map_or("", |stage| *stage)
+}
+
+fn enter(stage: &'static str) {
+    if let Ok(mut now) = STAGE.lock() {
+        *now = stage;
+    }
+}
+
 /// What the last panic said.
 static PANIC: Mutex<String> = Mutex::new(String::new());
 
@@ -145,6 +159,7 @@ fn guarded(work: impl FnOnce() -> Outcome) -> Outcome {
 }
 
 fn judged(shape: &Shape) -> Result<(MedialAxis, Times), Outcome> {
+    enter("domain");
     let start = ThreadTime::now();
     let domain = match build(shape) {
         Ok(domain) => domain,
@@ -153,12 +168,14 @@ fn judged(shape: &Shape) -> Result<(MedialAxis, Times), Outcome> {
     };
     let mut times = Times { edges: domain.edges().len(), ..Times::default() };
     times.domain = start.elapsed();
+    enter("engine");
     let start = ThreadTime::now();
     let axis = path_tracing(&domain).map_err(|error| Outcome::Find(error.to_string()))?;
     times.engine = start.elapsed();
     if axis.accuracy != Accuracy::Exact || !axis.complete {
         return Err(Outcome::Find("the axis is not exact and complete".into()));
     }
+    enter("judge");
     let start = ThreadTime::now();
     let verdict = check::defects(&domain, &axis);
     times.judge = start.elapsed();

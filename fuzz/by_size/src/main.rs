@@ -252,7 +252,11 @@ fn watch(running: &Running, finds: &Path) {
             let Ok(running) = running.lock() else { return };
             let Some((since, name, shape)) = &*running else { continue };
             if since.elapsed() > HANGS {
-                println!("FIND {name}, regroup {}: no end after {HANGS:?}", shape.regroup);
+                let stage = judge::stage();
+                println!(
+                    "FIND {name}, regroup {}: {stage} without end in {HANGS:?}",
+                    shape.regroup
+                );
                 keep(&finds.join("hang.wkt"), &sketch::to_wkt(&shape.polygons));
                 process::exit(1);
             }
