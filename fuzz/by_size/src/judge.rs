@@ -1,14 +1,15 @@
 //! What must hold for every shape.
 
+use std::num::NonZeroUsize;
 use std::panic::{self, AssertUnwindSafe};
 use std::sync::Mutex;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use cpu_time::ThreadTime;
 use medial::axis::{Accuracy, MedialAxis};
 use medial::check;
 use medial::domain::{Domain, DomainError, Options};
-use medial::engine::path_tracing;
+use medial::engine::{self, path_tracing, path_tracing_with};
 use medial::geom::Point;
 
 use super::{Polygons, Ring};
@@ -36,6 +37,23 @@ pub struct Times {
     pub domain: Duration,
     pub engine: Duration,
     pub judge: Duration,
+}
+
+/// Time that the engine is given.
+const LIMIT: Duration = Duration::from_secs(60);
+
+/// What is being done, for a shape without an end.
+static STAGE: Mutex<&str> = Mutex::new("");
+
+/// What is being done at the moment.
+pub fn stage() -> &'static str {
+    STAGE.lock().map_or("", |stage| *stage)
+}
+
+fn enter(stage: &'static str) {
+    if let Ok(mut now) = STAGE.lock() {
+        *now = stage;
+    }
 }
 
 /// What the last panic said.
@@ -82,14 +100,28 @@ impl Image {
     }
 }
 
-/// Judges the axis of a shape, and compares it with that of an image if one is wanted.
-pub fn judge(shape: &Shape, image: Option<Image>) -> Outcome {
+/// What a shape is compared with.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Comparison {
+    /// Its axis from several threads.
+    pub threads: Option<NonZeroUsize>,
+    /// The axis of an image of it.
+    pub image: Option<Image>,
+}
+
+/// Judges the axis of a shape, and compares it.
+pub fn judge(shape: &Shape, with: Comparison) -> Outcome {
     guarded(|| {
         let (axis, times) = match judged(shape) {
             Ok(judged) => judged,
             Err(outcome) => return outcome,
         };
-        let Some(image) = image else { return Outcome::Fine(times) };
+        if let Some(threads) = with.threads
+            && let Some(fault) = shared_fault(shape, &axis, threads)
+        {
+            return Outcome::Find(format!("{threads} threads: {fault}"));
+        }
+        let Some(image) = with.image else { return Outcome::Fine(times) };
         let moved = Shape { polygons: image.of(&shape.polygons), regroup: shape.regroup };
         match judged(&moved) {
             Err(Outcome::Refused(error)) => Outcome::Find(format!("{image:?}: refused: {error}")),
@@ -134,6 +166,19 @@ pub fn mend(shape: &mut Shape) {
     }
 }
 
+/// What is wrong with the axis from several threads.
+fn shared_fault(shape: &Shape, axis: &MedialAxis, threads: NonZeroUsize) -> Option<String> {
+    let domain = build(shape).ok()?;
+    enter("several threads");
+    let deadline = Some(Instant::now() + LIMIT);
+    let options = engine::Options { threads, alone_below: 0, deadline, ..Default::default() };
+    match path_tracing_with(&domain, &options) {
+        Ok(other) if other == *axis => None,
+        Ok(_) => Some("another axis".into()),
+        Err(error) => Some(error.to_string()),
+    }
+}
+
 fn build(shape: &Shape) -> Result<Domain, DomainError> {
     Domain::from_polygons(&shape.polygons, &Options { strict: false, regroup: shape.regroup })
 }
@@ -145,6 +190,7 @@ fn guarded(work: impl FnOnce() -> Outcome) -> Outcome {
 }
 
 fn judged(shape: &Shape) -> Result<(MedialAxis, Times), Outcome> {
+    enter("domain");
     let start = ThreadTime::now();
     let domain = match build(shape) {
         Ok(domain) => domain,
@@ -153,12 +199,17 @@ fn judged(shape: &Shape) -> Result<(MedialAxis, Times), Outcome> {
     };
     let mut times = Times { edges: domain.edges().len(), ..Times::default() };
     times.domain = start.elapsed();
+    enter("engine");
     let start = ThreadTime::now();
-    let axis = path_tracing(&domain).map_err(|error| Outcome::Find(error.to_string()))?;
+    let deadline = Some(Instant::now() + LIMIT);
+    let options = engine::Options { deadline, ..Default::default() };
+    let axis =
+        path_tracing_with(&domain, &options).map_err(|error| Outcome::Find(error.to_string()))?;
     times.engine = start.elapsed();
     if axis.accuracy != Accuracy::Exact || !axis.complete {
         return Err(Outcome::Find("the axis is not exact and complete".into()));
     }
+    enter("judge");
     let start = ThreadTime::now();
     let verdict = check::defects(&domain, &axis);
     times.judge = start.elapsed();

@@ -14,6 +14,7 @@ mod sketch;
 mod tangles;
 mod tell;
 
+use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::{Arc, Mutex};
@@ -24,7 +25,7 @@ use medial::geom::Point;
 use medial_bench::shapes::Random;
 
 use families::{FAMILIES, Family, Ground};
-use judge::{Image, Outcome, Shape};
+use judge::{Comparison, Image, Outcome, Shape};
 use tell::Summary;
 
 /// Closed list of points, the last one joined to the first.
@@ -191,8 +192,11 @@ fn one(drawing: &Drawing, options: &Options, running: &Running, summary: &mut Su
         *running = Some((Instant::now(), format!("{name}: {pose}"), shape.clone()));
     }
     let image = Image::ALL[random.below(4)];
-    let image = (drawing.edges <= COMPARED && random.below(2) == 0).then_some(image);
-    let outcome = judge::judge(&shape, image);
+    let with = Comparison {
+        image: (drawing.edges <= COMPARED && random.below(2) == 0).then_some(image),
+        threads: NonZeroUsize::new([0, 0, 2, 3, 4, 8][random.below(6)]),
+    };
+    let outcome = judge::judge(&shape, with);
     if let Ok(mut running) = running.lock() {
         *running = None;
     }
@@ -204,10 +208,10 @@ fn one(drawing: &Drawing, options: &Options, running: &Running, summary: &mut Su
             if let Ok(mut running) = running.lock() {
                 *running = Some((Instant::now(), format!("{name}, reducing"), shape.clone()));
             }
-            let fails = |s: &Shape| matches!(judge::judge(s, image), Outcome::Find(_));
+            let fails = |s: &Shape| matches!(judge::judge(s, with), Outcome::Find(_));
             let small = reduce::reduce(shape, Instant::now() + REDUCING, &fails);
             keep(&file("small"), &sketch::to_wkt(&small.polygons));
-            let outcome = judge::judge(&small, image);
+            let outcome = judge::judge(&small, with);
             if let Ok(mut running) = running.lock() {
                 *running = None;
             }
@@ -252,7 +256,11 @@ fn watch(running: &Running, finds: &Path) {
             let Ok(running) = running.lock() else { return };
             let Some((since, name, shape)) = &*running else { continue };
             if since.elapsed() > HANGS {
-                println!("FIND {name}, regroup {}: no end after {HANGS:?}", shape.regroup);
+                let stage = judge::stage();
+                println!(
+                    "FIND {name}, regroup {}: {stage} without end in {HANGS:?}",
+                    shape.regroup
+                );
                 keep(&finds.join("hang.wkt"), &sketch::to_wkt(&shape.polygons));
                 process::exit(1);
             }
