@@ -49,10 +49,11 @@ impl Run<'_> {
     ) -> Result<Status, Failure> {
         let common = self.common;
         let progress = Progress::new(common.progress, common.quiet, layer.len);
+        let (at_once, _) = self.threads(&layer);
         let mut report = Report { input: input.name.clone(), ..Report::default() };
         let broke = ordered(
             Timed(layer),
-            common.threads.unwrap_or_else(all_processors),
+            at_once,
             |(feature, read)| process(feature, read, common, &work),
             |outcome| {
                 self.stages.add(outcome.stages);
@@ -76,6 +77,16 @@ impl Run<'_> {
             Some(None) => Ok(Status::NoResult),
             None => Ok(summary(&report, input, &progress)),
         }
+    }
+
+    /// How many features to work on at once, and with how many threads on each: where there are few
+    /// features, the threads left over share the work on one.
+    pub fn threads(&self, layer: &Layer<'_>) -> (NonZeroUsize, NonZeroUsize) {
+        let threads = self.common.threads.unwrap_or_else(all_processors);
+        let features = layer.len.and_then(NonZeroUsize::new).unwrap_or(threads);
+        let at_once = threads.min(features);
+        let each = NonZeroUsize::new(threads.get() / at_once).unwrap_or(NonZeroUsize::MIN);
+        (at_once, each)
     }
 
     /// Writes the timings, if they are asked for.
