@@ -9,7 +9,7 @@ mod random;
 mod round;
 mod teeth;
 
-use random::Random;
+pub use random::Random;
 
 /// Half the width of a drawing.
 const SIZE: f64 = 1e9;
@@ -26,10 +26,14 @@ pub const NAMES: [&str; 14] = [
 /// The shapes whose coordinates are not whole.
 pub const DOUBLES: [&str; 2] = ["ngon", "ellipse"];
 
-/// The rings of a shape, the outer one first.
+/// The rings of a shape, the outer one first; always the same ones.
 pub fn draw(shape: &str, edges: usize) -> Option<Vec<Ring>> {
+    draw_from(&mut Random::new(edges.max(12) as u64), shape, edges)
+}
+
+/// The rings of a shape, the outer one first, with what is random in it taken from there.
+pub fn draw_from(random: &mut Random, shape: &str, edges: usize) -> Option<Vec<Ring>> {
     let edges = edges.max(12);
-    let random = &mut Random::new(edges as u64);
     let mut rings = match shape {
         "star" => vec![round::star(random, edges)],
         "koch" => vec![round::koch(random, edges)],

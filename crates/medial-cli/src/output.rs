@@ -4,6 +4,9 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use tempfile::NamedTempFile;
 
+/// Bytes gathered before they are handed to the system.
+const BUFFER: usize = 1 << 16;
+
 /// Where results go: standard output, or a file that appears when it is complete.
 pub enum Output {
     Stream(io::BufWriter<io::Stdout>),
@@ -19,7 +22,7 @@ impl Output {
     /// Standard output for `None` and `-`.
     pub fn create(path: Option<&Path>) -> Result<Self, Failure> {
         let Some(path) = path.filter(|path| path.as_os_str() != "-") else {
-            return Ok(Self::Stream(io::BufWriter::new(io::stdout())));
+            return Ok(Self::Stream(io::BufWriter::with_capacity(BUFFER, io::stdout())));
         };
         let name = path.display().to_string();
         let failed = |error: io::Error| {
@@ -31,7 +34,7 @@ impl Output {
             && !found.is_file()
         {
             let file = fs::OpenOptions::new().write(true).open(&path).map_err(failed)?;
-            return Ok(Self::Direct(io::BufWriter::new(file), name));
+            return Ok(Self::Direct(io::BufWriter::with_capacity(BUFFER, file), name));
         }
         let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
         let mut builder = tempfile::Builder::new();
@@ -43,7 +46,7 @@ impl Output {
             builder.permissions(fs::Permissions::from_mode(0o666));
         }
         let file = builder.tempfile_in(folder).map_err(failed)?;
-        Ok(Self::File { text: io::BufWriter::new(file), path })
+        Ok(Self::File { text: io::BufWriter::with_capacity(BUFFER, file), path })
     }
 
     pub fn write(&mut self, bytes: &[u8]) -> Result<(), Failure> {
@@ -69,6 +72,12 @@ impl Output {
         }
     }
 
+    /// Writes all there is to write.
+    pub fn whole(mut self, bytes: &[u8]) -> Result<(), Failure> {
+        self.write(bytes)?;
+        self.finish()
+    }
+
     fn name(&self) -> String {
         match self {
             Self::Stream(_) => "<stdout>".to_owned(),
@@ -76,11 +85,4 @@ impl Output {
             Self::File { path, .. } => path.display().to_string(),
         }
     }
-}
-
-/// Writes a whole file, or none.
-pub fn write_file(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
-    let mut output = Output::create(Some(path))?;
-    output.write(bytes)?;
-    output.finish()
 }

@@ -7,7 +7,7 @@ use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread;
 
 /// Items a thread may be ahead of the result that is awaited.
-const AHEAD: usize = 32;
+const AHEAD: usize = 16;
 
 /// What the threads share.
 struct State<R> {
@@ -26,7 +26,7 @@ struct State<R> {
 /// Calls `work` for each item on several threads and `done` for each result in order, until
 /// `done` breaks off; gives what it broke off with.
 ///
-/// At most 32 items per thread are in flight.
+/// At most 16 items per thread are in flight.
 pub fn ordered<T, R: Send, B>(
     items: impl Iterator<Item = T> + Send,
     threads: NonZeroUsize,

@@ -1,9 +1,6 @@
-use crate::failure::Failure;
-use crate::output::write_file;
 use medial::domain::{DomainError, Repair, Report as Repairs};
 use medial_io::{Json, Note};
 use serde::Serialize;
-use std::path::Path;
 
 /// What became of all features: the content of a report file.
 #[derive(Default, Serialize)]
@@ -51,10 +48,11 @@ pub enum Action {
 }
 
 impl Report {
-    pub fn write(&self, path: &Path) -> Result<(), Failure> {
+    /// The content of the report file.
+    pub fn text(&self) -> String {
         let mut text = serde_json::to_string_pretty(self).unwrap_or_default();
         text.push('\n');
-        write_file(path, text.as_bytes())
+        text
     }
 }
 

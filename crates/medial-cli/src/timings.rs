@@ -1,8 +1,5 @@
-use crate::failure::Failure;
-use crate::output::write_file;
 use cpu_time::ProcessTime;
 use serde::Serialize;
-use std::path::Path;
 use std::time::{Duration, Instant};
 
 /// Wall time spent in each stage, summed over features.
@@ -45,8 +42,8 @@ struct Timings {
     peak_bytes: Option<u64>,
 }
 
-/// Writes the timings of a run that began at `start`.
-pub fn write(path: &Path, stages: &Stages, start: Instant) -> Result<(), Failure> {
+/// The content of the timings file of a run that began at `start`.
+pub fn text(stages: &Stages, start: Instant) -> String {
     let timings = Timings {
         read: stages.read.as_secs_f64(),
         domain: stages.domain.as_secs_f64(),
@@ -59,7 +56,7 @@ pub fn write(path: &Path, stages: &Stages, start: Instant) -> Result<(), Failure
     };
     let mut text = serde_json::to_string_pretty(&timings).unwrap_or_default();
     text.push('\n');
-    write_file(path, text.as_bytes())
+    text
 }
 
 /// The most memory the process has had, where the system tells (Linux).

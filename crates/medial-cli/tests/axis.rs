@@ -241,6 +241,16 @@ fn a_folder_that_does_not_exist_is_named_before_any_work() {
 }
 
 #[test]
+fn a_side_file_that_cannot_be_written_stops_before_any_work() {
+    for option in ["--timings", "--report"] {
+        let run = medial_with(&["axis", "-", option, "/nonexistent/a.json"], RECTANGLE);
+        assert_eq!(run.status, Some(1));
+        let told = "error: /nonexistent/a.json: cannot create: no such file or directory\n";
+        assert_eq!((run.text(), run.errors.as_str()), ("", told));
+    }
+}
+
+#[test]
 fn output_does_not_depend_on_the_number_of_threads() {
     let many: String = (2..200)
         .map(|k| format!("POLYGON ((0 0, {k} 0, {k} 2, 0 {}, 0 0))\n", 2 + k % 7))

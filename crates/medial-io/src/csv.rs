@@ -1,11 +1,12 @@
 //! Comma-separated values: a row a path, the drawn line as WKT in the first column as GDAL
 //! writes and reads it.
 
-use crate::number::shortest;
+use crate::number::push_shortest;
 use crate::path::{PathRecord, records};
 use crate::wkt::line_string;
 use crate::{Drawing, Feature};
 use medial::axis::MedialAxis;
+use std::fmt::{Display, Write as _};
 
 const PLACE: [&str; 10] =
     ["WKT", "feature", "id", "path", "from", "to", "x_start", "y_start", "x_end", "y_end"];
@@ -13,8 +14,12 @@ const PLACE: [&str; 10] =
 /// The row of column names.
 #[must_use]
 pub fn header() -> String {
-    let names = PLACE.into_iter().chain(["engine"]).chain(PathRecord::COLUMNS);
-    table([names.map(str::to_owned).collect()])
+    let mut table = Table::new();
+    for name in PLACE.into_iter().chain(["engine"]).chain(PathRecord::COLUMNS) {
+        table.field(|out| out.push_str(name));
+    }
+    table.end_row();
+    table.text()
 }
 
 /// The rows of one axis.
@@ -24,44 +29,70 @@ pub fn rows(source: &Feature, axis: &MedialAxis, drawing: Drawing) -> String {
     let id = source.id.as_ref().map_or("", |id| id.get());
     // A text is written without the quotes JSON puts around it.
     let id = serde_json::from_str::<String>(id).unwrap_or_else(|_| id.to_owned());
-    table(records(axis).enumerate().map(|(k, record)| {
+    let mut table = Table::new();
+    for (k, record) in records(axis).enumerate() {
         let PathRecord { path, curve, ends } = record;
-        let mut row = vec![
-            line_string(&curve, drawing, tolerance),
-            source.index.to_string(),
-            id.clone(),
-            k.to_string(),
-            path.from.to_string(),
-            path.to.to_string(),
-        ];
+        table.field(|out| line_string(out, &curve, drawing, tolerance));
+        table.whole(source.index);
+        table.field(|out| out.push_str(&id));
+        table.whole(k);
+        table.whole(path.from);
+        table.whole(path.to);
         let (from, to) = (curve.from(), curve.to());
-        row.extend([from.x, from.y, to.x, to.y].map(shortest));
-        row.extend([axis.engine.to_string(), curve.kind().to_string()]);
-        row.extend(
-            [
-                curve.length(),
-                curve.radius_min(),
-                curve.radius_max(),
-                curve.radius_from(),
-                curve.radius_to(),
-            ]
-            .map(shortest),
-        );
-        row.extend(ends.map(|k| k.kind.to_string()));
-        row.extend([path.left, path.right].map(|g| g.to_string()));
-        row
-    }))
+        [from.x, from.y, to.x, to.y].into_iter().for_each(|value| table.number(value));
+        table.field(|out| out.push_str(axis.engine.name()));
+        table.field(|out| out.push_str(curve.kind().name()));
+        table.number(curve.length());
+        table.number(curve.radius_min());
+        table.number(curve.radius_max());
+        table.number(curve.radius_from());
+        table.number(curve.radius_to());
+        ends.into_iter().for_each(|end| table.field(|out| out.push_str(end.kind.name())));
+        table.whole(path.left);
+        table.whole(path.right);
+        table.end_row();
+    }
+    table.text()
 }
 
-fn table(rows: impl IntoIterator<Item = Vec<String>>) -> String {
-    let mut writer = ::csv::Writer::from_writer(Vec::new());
-    for row in rows {
-        // Writing to memory fails on rows of unequal length only, and all have as many columns.
-        if writer.write_record(&row).is_err() {
-            break;
-        }
+/// A table that is being written.
+struct Table {
+    writer: ::csv::Writer<Vec<u8>>,
+    /// The field being written.
+    field: String,
+}
+
+impl Table {
+    fn new() -> Self {
+        Self { writer: ::csv::Writer::from_writer(Vec::new()), field: String::new() }
     }
-    writer.into_inner().ok().and_then(|bytes| String::from_utf8(bytes).ok()).unwrap_or_default()
+
+    fn field(&mut self, write: impl FnOnce(&mut String)) {
+        self.field.clear();
+        write(&mut self.field);
+        // Writing to memory does not fail.
+        let _ = self.writer.write_field(&self.field);
+    }
+
+    fn number(&mut self, value: f64) {
+        self.field(|out| push_shortest(out, value));
+    }
+
+    fn whole(&mut self, value: impl Display) {
+        self.field(|out| {
+            let _ = write!(out, "{value}");
+        });
+    }
+
+    fn end_row(&mut self) {
+        // Rows of unequal length fail; all have as many fields.
+        let _ = self.writer.write_record(None::<&[u8]>);
+    }
+
+    fn text(self) -> String {
+        let bytes = self.writer.into_inner().ok();
+        bytes.and_then(|bytes| String::from_utf8(bytes).ok()).unwrap_or_default()
+    }
 }
 
 #[cfg(test)]

@@ -38,19 +38,71 @@ pub struct Note {
 }
 
 /// The features of an input, read one by one.
+///
+/// [`Layer::parts`] gives them unread, for several threads to read.
 pub struct Layer<'a> {
     /// The coordinate reference system of the layer, as its format writes it.
     pub crs: Option<Json>,
     /// The number of features, where it is known beforehand.
     pub len: Option<usize>,
-    pub(crate) features: Box<dyn Iterator<Item = Result<Feature, FeatureError>> + Send + 'a>,
+    pub(crate) parts: Box<dyn Iterator<Item = Part<'a>> + Send + 'a>,
+}
+
+/// A feature of an input, found but perhaps not read yet.
+pub struct Part<'a>(State<'a>);
+
+enum State<'a> {
+    Read(Box<Result<Feature, FeatureError>>),
+    Unread { text: &'a str, part: &'a str, index: usize, read: Reading },
+}
+
+/// Reads `part`, a slice of `text`, as the feature with a number.
+type Reading = fn(text: &str, part: &str, index: usize) -> Result<Feature, FeatureError>;
+
+impl Part<'_> {
+    /// About as many bytes as the feature has as text.
+    #[must_use]
+    pub fn size(&self) -> usize {
+        match &self.0 {
+            State::Read(read) => read.as_ref().as_ref().map_or(0, Feature::size),
+            State::Unread { part, .. } => part.len(),
+        }
+    }
+
+    /// Reads the feature.
+    ///
+    /// # Errors
+    /// If it is malformed.
+    pub fn read(self) -> Result<Feature, FeatureError> {
+        match self.0 {
+            State::Read(read) => *read,
+            State::Unread { text, part, index, read } => read(text, part, index),
+        }
+    }
 }
 
 impl<'a> Layer<'a> {
+    /// A layer of features that are read where they are found.
     pub(crate) fn new(
         features: impl Iterator<Item = Result<Feature, FeatureError>> + Send + 'a,
     ) -> Self {
-        Self { crs: None, len: None, features: Box::new(features) }
+        let parts = features.map(|read| Part(State::Read(Box::new(read))));
+        Self { crs: None, len: None, parts: Box::new(parts) }
+    }
+
+    /// A layer of the features in these slices of `text`, in their order.
+    pub(crate) fn of_slices(
+        text: &'a str,
+        slices: impl Iterator<Item = &'a str> + Send + 'a,
+        read: Reading,
+    ) -> Self {
+        let part = move |(index, part)| Part(State::Unread { text, part, index, read });
+        Self { crs: None, len: None, parts: Box::new(slices.enumerate().map(part)) }
+    }
+
+    /// The features unread, as far as their format lets them be found before they are read.
+    pub fn parts(self) -> impl Iterator<Item = Part<'a>> + Send + 'a {
+        self.parts
     }
 }
 
@@ -58,13 +110,20 @@ impl Iterator for Layer<'_> {
     type Item = Result<Feature, FeatureError>;
 
     fn next(&mut self) -> Option<Self::Item> {
-        self.features.next()
+        self.parts.next().map(Part::read)
     }
 }
 
 impl Feature {
     pub(crate) fn numbered(index: usize) -> Self {
         Self { index, ..Self::default() }
+    }
+
+    /// About as many bytes as it has as text.
+    fn size(&self) -> usize {
+        /// Two numbers of ten characters.
+        const POINT: usize = 20;
+        POINT * self.polygons.iter().flatten().map(Vec::len).sum::<usize>()
     }
 
     /// Adds one polygon; an empty one keeps its number.

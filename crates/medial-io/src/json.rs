@@ -22,7 +22,47 @@ fn locate(text: &str, part: &str, error: &serde_json::Error) -> Error {
     let why = error.to_string();
     // The parser ends its message with its own place.
     let why = why.rsplit_once(" at line ").map_or(why.as_str(), |(why, _)| why);
-    syntax_at(text, byte, why.replace("expected f64", "expected a number"))
+    let why = why.replace("expected f64", "expected a number");
+    syntax_at(text, byte, not_finite(part, byte - offset(text, part), &why).unwrap_or(why))
+}
+
+/// What to say of a number at this byte of `part` that is too large, or that JSON does not have:
+/// the vertex it belongs to.
+fn not_finite(part: &str, byte: usize, why: &str) -> Option<String> {
+    let before = part.get(..byte.min(part.len()))?;
+    // The parser may have begun with the token.
+    let before = before.trim_end_matches(|c: char| c.is_ascii_alphabetic());
+    let token =
+        part[before.len()..].split(|c: char| !c.is_ascii_alphabetic()).next().unwrap_or_default();
+    let why = if why == "number out of range" {
+        "the number is out of range"
+    } else if ["nan", "inf", "infinity"].contains(&token.to_ascii_lowercase().as_str()) {
+        "a coordinate is not finite, and no JSON"
+    } else {
+        return None;
+    };
+    // Bare arrays begin with their bracket, coordinates stand behind their name.
+    let before = match before.rsplit_once("\"coordinates\"") {
+        Some((_, coordinates)) => coordinates,
+        None if before.trim_start().starts_with('[') => before,
+        None => return None,
+    };
+    let mut places = Vec::new();
+    for byte in before.bytes() {
+        match byte {
+            b'[' => places.push(0_usize),
+            b']' => drop(places.pop()),
+            b',' => *places.last_mut()? += 1,
+            _ => {}
+        }
+    }
+    match places[..] {
+        [ring, vertex, _] => Some(format!("ring {ring}, vertex {vertex}: {why}")),
+        [polygon, ring, vertex, _] => {
+            Some(format!("polygon {polygon}, ring {ring}, vertex {vertex}: {why}"))
+        }
+        _ => None,
+    }
 }
 
 /// The `type` of a JSON object.
@@ -108,7 +148,10 @@ pub(crate) fn points(rings: Vec<Ring>) -> Vec<Vec<Point>> {
 }
 
 /// A JSON value without white space between its tokens, so that it fits on one line.
-pub(crate) fn compact(value: &RawValue) -> String {
+pub(crate) fn compact(value: &RawValue) -> Cow<'_, str> {
+    if !value.get().contains(|c: char| c.is_ascii_whitespace()) {
+        return value.get().into();
+    }
     let (mut in_string, mut escaped) = (false, false);
     let keep = |c: &char| {
         if in_string {
@@ -125,5 +168,6 @@ pub(crate) fn compact(value: &RawValue) -> String {
 
 /// A text as a JSON string.
 pub(crate) fn quoted(text: &str) -> String {
-    serde_json::Value::from(text).to_string()
+    // Text always has a JSON form.
+    serde_json::to_string(text).unwrap_or_default()
 }

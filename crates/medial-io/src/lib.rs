@@ -42,7 +42,7 @@ pub mod wkb;
 pub mod wkt;
 
 pub use error::{Error, FeatureError};
-pub use feature::{Feature, Json, Layer, Note, Polygons};
+pub use feature::{Feature, Json, Layer, Note, Part, Polygons};
 pub use format::{Content, Format, UnknownFormat};
 pub use path::{Drawing, default_tolerance};
 pub use text::text;

@@ -30,10 +30,11 @@ pub fn read(text: &str) -> Result<Layer<'_>, Error> {
         return Err(Error::Empty);
     }
     let len = Some(arrays.len());
-    let features = arrays.into_iter().enumerate().map(move |(index, part)| {
-        polygon(text, part, index).map_err(|error| FeatureError { feature: index, id: None, error })
-    });
-    Ok(Layer { len, ..Layer::new(features) })
+    Ok(Layer { len, ..Layer::of_slices(text, arrays.into_iter(), feature) })
+}
+
+fn feature(text: &str, part: &str, index: usize) -> Result<Feature, FeatureError> {
+    polygon(text, part, index).map_err(|error| FeatureError { feature: index, id: None, error })
 }
 
 fn polygon(text: &str, part: &str, index: usize) -> Result<Feature, Error> {

@@ -40,3 +40,13 @@ fn an_edge_of_another_component_that_ends_in_the_first_corner_makes_no_keypoint(
 fn contacts_in_a_gap_of_half_an_ulp_are_sorted_exactly() {
     is_right("issue_2_two_holes_half_an_ulp_apart.wkt");
 }
+
+#[test]
+fn a_chain_goes_no_further_than_once_round_a_tiny_hole() {
+    is_right("issue_3_chain_round_a_tiny_hole.wkt");
+}
+
+#[test]
+fn a_tiny_hole_in_a_sharp_corner_is_met() {
+    is_right("issue_3_hole_hidden_in_a_corner.wkt");
+}

@@ -4,18 +4,17 @@ use crate::args::{AxisArgs, Height};
 use crate::failure::{Failure, Status};
 use crate::input::Input;
 use crate::report::Entry;
-use crate::timings::{Stages, timed};
+use crate::timings::timed;
 use medial::axis::{Engine, MedialAxis};
 use medial::domain::Domain;
 use medial::engine::{self, EngineError, path_tracing_with};
 use medial_io::svg::Options;
 use medial_io::{Drawing, Format};
 use std::io::IsTerminal as _;
-use std::time::Instant;
 
 /// `medial axis`.
 pub fn run(args: &AxisArgs) -> Result<Status, Failure> {
-    let mut run = Run { common: &args.common, start: Instant::now(), stages: Stages::default() };
+    let mut run = Run::new(&args.common)?;
     let format = output_format(args)?;
     let drawing = Drawing {
         tolerance: args.tolerance,
@@ -26,21 +25,23 @@ pub fn run(args: &AxisArgs) -> Result<Status, Failure> {
     let layer = timed(&mut run.stages.read, || layer(&input, &args.input, &args.common))?;
     let picture = Options { title: title(args), draw: args.draw.clone(), ..Options::default() };
     let mut sink = Sink::create(args.output.as_deref(), format, layer.crs.clone(), picture)?;
+    let mut scenes = Vec::new();
     let mut write = std::time::Duration::ZERO;
     let (_, threads) = run.threads(&layer);
     let options = engine::Options { threads, ..engine::Options::default() };
     let status = run.each(
         &input,
         layer,
-        |feature, domain, stages| {
+        |feature, domain, stages, bytes| {
             let axis = timed(&mut stages.engine, || trace(args.engine, domain, &options))
                 .map_err(|error| Entry::refused(code(&error), error.to_string()))?;
-            Ok(timed(&mut stages.write, || encode(format, drawing, feature, domain, axis)))
+            Ok(timed(&mut stages.write, || encode(format, drawing, feature, domain, axis, bytes)))
         },
-        |chunk| timed(&mut write, || sink.add(chunk)),
+        |scene| scenes.extend(scene),
+        |bytes| timed(&mut write, || sink.write(bytes)),
     )?;
     if status != Status::NoResult {
-        timed(&mut write, || sink.finish())?;
+        timed(&mut write, || sink.finish(&scenes))?;
     }
     run.stages.write += write;
     run.finish()?;

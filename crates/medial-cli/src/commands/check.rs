@@ -3,11 +3,10 @@ use crate::args::{CheckArgs, Form};
 use crate::failure::{Failure, Status};
 use crate::input::Input;
 use crate::output::Output;
-use crate::timings::{Stages, timed};
+use crate::timings::timed;
 use crate::verdicts::{Document, Judged};
 use medial_io::{Error, axis_document};
 use std::collections::BTreeMap;
-use std::time::Instant;
 
 /// `medial check`.
 pub fn run(args: &CheckArgs) -> Result<Status, Failure> {
@@ -15,30 +14,32 @@ pub fn run(args: &CheckArgs) -> Result<Status, Failure> {
         let why = "polygons and axes cannot both come from standard input; name a file";
         return Err(Failure::Usage(why.to_owned()));
     }
-    let mut run = Run { common: &args.common, start: Instant::now(), stages: Stages::default() };
+    let mut run = Run::new(&args.common)?;
     let (input, axes) =
         timed(&mut run.stages.read, || Ok((Input::read(&args.domain)?, Input::read(&args.axis)?)))?;
     let mut documents = timed(&mut run.stages.read, || read_documents(&axes))?;
     let layer = timed(&mut run.stages.read, || layer(&input, &args.domain, &args.common))?;
     let mut output = Output::create(args.output.as_deref())?;
-    let mut tell = |judged: &Judged| match args.to {
-        Form::Text => output.write(judged.text().as_bytes()),
-        Form::Json => output.write(judged.json().as_bytes()),
+    let told = |judged: &Judged| match args.to {
+        Form::Text => judged.text(),
+        Form::Json => judged.json(),
     };
     let mut n_defects = 0;
     let mut seen = Vec::new();
     let status = run.each(
         &input,
         layer,
-        |feature, domain, stages| {
+        |feature, domain, stages, bytes| {
             let of_feature = documents.get(&feature.index).map_or(&[][..], Vec::as_slice);
-            Ok(timed(&mut stages.operations, || Judged::new(feature, domain, of_feature)))
+            let judged = timed(&mut stages.operations, || Judged::new(feature, domain, of_feature));
+            timed(&mut stages.write, || bytes.extend(told(&judged).into_bytes()));
+            Ok((judged.feature, judged.defects.len()))
         },
-        |judged| {
-            n_defects += judged.defects.len();
-            seen.push(judged.feature);
-            tell(&judged)
+        |(feature, defects)| {
+            n_defects += defects;
+            seen.push(feature);
         },
+        |bytes| output.write(bytes),
     )?;
     for feature in seen {
         documents.remove(&feature);
@@ -46,7 +47,7 @@ pub fn run(args: &CheckArgs) -> Result<Status, Failure> {
     for feature in documents.into_keys() {
         let judged = Judged::without_domain(feature);
         n_defects += judged.defects.len();
-        tell(&judged)?;
+        output.write(told(&judged).as_bytes())?;
     }
     if status != Status::NoResult || n_defects > 0 {
         output.finish()?;

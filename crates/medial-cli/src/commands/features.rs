@@ -4,15 +4,17 @@ use crate::args::{Common, OnError};
 use crate::failure::{Failure, Status};
 use crate::guard::guarded;
 use crate::input::Input;
+use crate::output::Output;
 use crate::parallel::ordered;
 use crate::progress::Progress;
 use crate::report::{self, Entry, FeatureReport, Report};
 use crate::timings::{self, Stages, timed};
 use medial::domain::{Domain, Options};
-use medial_io::{Feature, FeatureError, Json, Layer};
+use medial_io::{Feature, FeatureError, Json, Layer, Part};
 use std::num::NonZeroUsize;
 use std::ops::ControlFlow;
-use std::path::Path;
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 /// A run of a command over the features of an input.
@@ -22,6 +24,8 @@ pub struct Run<'a> {
     pub start: Instant,
     /// Time spent so far.
     pub stages: Stages,
+    report: Option<Output>,
+    timings: Option<Output>,
 }
 
 /// What became of one feature.
@@ -32,45 +36,87 @@ struct Outcome<R> {
     entries: Vec<Entry>,
     /// `None` if it was refused; then the last entry says why.
     result: Option<R>,
+    /// Where its bytes end among those of its batch; they begin where the feature before ends.
+    end: usize,
     stages: Stages,
 }
 
-impl Run<'_> {
-    /// Calls `work` for each valid feature, several at once, and `done` with the results in
-    /// order; tells and reports what is left out.
+impl<'a> Run<'a> {
+    /// A run that begins now; fails if the files beside its result cannot be written.
+    pub fn new(common: &'a Common) -> Result<Self, Failure> {
+        let create = |path: &Option<PathBuf>| {
+            path.as_deref().map(|path| Output::create(Some(path))).transpose()
+        };
+        Ok(Self {
+            common,
+            start: Instant::now(),
+            stages: Stages::default(),
+            report: create(&common.report)?,
+            timings: create(&common.timings)?,
+        })
+    }
+
+    /// Calls `work` for each valid feature, several at once, then `done` with the results and
+    /// `write` with the bytes that `work` appended, both in order; tells and reports what is left
+    /// out.
     ///
     /// The result is whether all went well; a stop at a bad feature is [`Status::NoResult`].
     pub fn each<R: Send>(
         &mut self,
         input: &Input,
         layer: Layer<'_>,
-        work: impl Fn(&Feature, &Domain, &mut Stages) -> Result<R, Entry> + Sync,
-        mut done: impl FnMut(R) -> Result<(), Failure>,
+        work: impl Fn(&Feature, &Domain, &mut Stages, &mut Vec<u8>) -> Result<R, Entry> + Sync,
+        mut done: impl FnMut(R),
+        mut write: impl FnMut(&[u8]) -> Result<(), Failure>,
     ) -> Result<Status, Failure> {
         let common = self.common;
         let progress = Progress::new(common.progress, common.quiet, layer.len);
         let (at_once, _) = self.threads(&layer);
         let mut report = Report { input: input.name.clone(), ..Report::default() };
+        let mut find = Duration::ZERO;
+        // Bytes of earlier batches, for their memory: it grows once and stays warm.
+        let spare = Mutex::new(Vec::new());
+        let spare = || spare.lock().unwrap_or_else(PoisonError::into_inner);
         let broke = ordered(
-            Timed(layer),
+            Batches { parts: layer.parts(), find: &mut find },
             at_once,
-            |(feature, read)| process(feature, read, common, &work),
-            |outcome| {
-                self.stages.add(outcome.stages);
-                progress.step();
-                match tell(outcome, input, &progress, &mut report) {
-                    Some(result) => match done(result) {
-                        Ok(()) => ControlFlow::Continue(()),
-                        Err(failure) => ControlFlow::Break(Some(failure)),
-                    },
-                    None if common.on_error == OnError::Stop => ControlFlow::Break(None),
-                    None => ControlFlow::Continue(()),
+            |batch| {
+                let mut bytes = spare().pop().unwrap_or_default();
+                let process = |part| process(part, common, &mut bytes, &work);
+                (batch.into_iter().map(process).collect::<Vec<_>>(), bytes)
+            },
+            |(outcomes, mut bytes)| {
+                let mut end = 0;
+                let mut stopped = false;
+                for outcome in outcomes {
+                    self.stages.add(outcome.stages);
+                    progress.step();
+                    let last = outcome.end;
+                    match tell(outcome, input, &progress, &mut report) {
+                        Some(result) => done(result),
+                        None => stopped = common.on_error == OnError::Stop,
+                    }
+                    if stopped {
+                        break;
+                    }
+                    end = last;
+                }
+                let written = write(&bytes[..end]);
+                if bytes.capacity() <= SPARE_BYTES {
+                    bytes.clear();
+                    spare().push(bytes);
+                }
+                match written {
+                    Err(failure) => ControlFlow::Break(Some(failure)),
+                    Ok(()) if stopped => ControlFlow::Break(None),
+                    Ok(()) => ControlFlow::Continue(()),
                 }
             },
         );
+        self.stages.read += find;
         progress.finish();
-        if let Some(path) = &common.report {
-            report.write(path)?;
+        if let Some(output) = self.report.take() {
+            output.whole(report.text().as_bytes())?;
         }
         match broke {
             Some(Some(failure)) => Err(failure),
@@ -90,9 +136,9 @@ impl Run<'_> {
     }
 
     /// Writes the timings, if they are asked for.
-    pub fn finish(&self) -> Result<(), Failure> {
-        match &self.common.timings {
-            Some(path) => timings::write(path, &self.stages, self.start),
+    pub fn finish(self) -> Result<(), Failure> {
+        match self.timings {
+            Some(output) => output.whole(timings::text(&self.stages, self.start).as_bytes()),
             None => Ok(()),
         }
     }
@@ -102,23 +148,44 @@ fn all_processors() -> NonZeroUsize {
     std::thread::available_parallelism().unwrap_or(NonZeroUsize::MIN)
 }
 
-/// The layer, each item with the time it took to read.
-struct Timed<'a>(Layer<'a>);
+/// Most features of a batch.
+const BATCH: usize = 32;
 
-impl Iterator for Timed<'_> {
-    type Item = (Result<Feature, FeatureError>, Duration);
+/// Bytes of text at which a batch is full: small features go together, so that threads do not
+/// wait for one another at each of them, and large ones alone.
+const BATCH_BYTES: usize = 16 << 10;
+
+/// Most bytes kept for the next batch; what a large feature took is given back.
+const SPARE_BYTES: usize = 1 << 20;
+
+/// The features of a layer in batches, with the time it took to find them.
+struct Batches<'a, I> {
+    parts: I,
+    find: &'a mut Duration,
+}
+
+impl<'p, I: Iterator<Item = Part<'p>>> Iterator for Batches<'_, I> {
+    type Item = Vec<Part<'p>>;
 
     fn next(&mut self) -> Option<Self::Item> {
-        let mut read = Duration::ZERO;
-        timed(&mut read, || self.0.next()).map(|item| (item, read))
+        let mut batch = Vec::new();
+        timed(self.find, || {
+            let mut bytes = 0;
+            while batch.len() < BATCH && bytes < BATCH_BYTES {
+                let Some(part) = self.parts.next() else { break };
+                bytes += part.size();
+                batch.push(part);
+            }
+        });
+        (!batch.is_empty()).then_some(batch)
     }
 }
 
 fn process<R>(
-    item: Result<Feature, FeatureError>,
-    read: Duration,
+    part: Part,
     common: &Common,
-    work: impl Fn(&Feature, &Domain, &mut Stages) -> Result<R, Entry>,
+    bytes: &mut Vec<u8>,
+    work: impl Fn(&Feature, &Domain, &mut Stages, &mut Vec<u8>) -> Result<R, Entry>,
 ) -> Outcome<R> {
     let mut outcome = Outcome {
         index: 0,
@@ -126,9 +193,10 @@ fn process<R>(
         warnings: Vec::new(),
         entries: Vec::new(),
         result: None,
-        stages: Stages { read, ..Stages::default() },
+        end: bytes.len(),
+        stages: Stages::default(),
     };
-    let feature = match item {
+    let feature = match timed(&mut outcome.stages.read, || part.read()) {
         Ok(feature) => feature,
         Err(FeatureError { feature, id, error }) => {
             outcome.index = feature;
@@ -152,14 +220,20 @@ fn process<R>(
                 }
                 outcome.entries.push(entry);
             }
-            work(&feature, &domain, &mut stages)
+            work(&feature, &domain, &mut stages, bytes)
         });
         outcome.stages = stages;
         result
     });
     match result.unwrap_or_else(|panic| Err(Entry::refused("internal", panic))) {
-        Ok(result) => outcome.result = Some(result),
-        Err(entry) => outcome.entries.push(entry),
+        Ok(result) => {
+            outcome.result = Some(result);
+            outcome.end = bytes.len();
+        }
+        Err(entry) => {
+            outcome.entries.push(entry);
+            bytes.truncate(outcome.end);
+        }
     }
     outcome
 }
@@ -188,14 +262,14 @@ fn tell<R>(
     report: &mut Report,
 ) -> Option<R> {
     let Outcome { index, id, warnings, entries, result, .. } = outcome;
-    let place = format!("{}: feature {index}", input.name);
+    let place = || format!("{}: feature {index}", input.name);
     for warning in warnings {
-        progress.warning(&format!("{place}: {warning}"));
+        progress.warning(&format!("{}: {warning}", place()));
     }
     report.n_features += 1;
     match (&result, entries.last()) {
         (None, Some(refusal)) => {
-            progress.error(&format!("{place}: {}", refusal.message));
+            progress.error(&format!("{}: {}", place(), refusal.message));
             report.left_out += 1;
         }
         _ => report.done += 1,

@@ -12,37 +12,43 @@ pub struct Sink {
     format: Format,
     crs: Option<Json>,
     picture: Options,
-    scenes: Vec<Scene>,
     begun: bool,
-    separated: bool,
 }
 
-/// What a thread makes of an axis, for the sink.
-pub enum Chunk {
-    Bytes(Vec<u8>),
-    Scene(Box<Scene>),
-}
+/// Stands before the features of every axis in GeoJSON; the sink takes off the first.
+const SEPARATOR: &[u8] = b",\n";
 
-/// The axis of a feature in a format.
+/// Appends the axis of a feature in a format, or gives what to draw of it.
 pub fn encode(
     format: Format,
     drawing: Drawing,
     feature: &Feature,
     domain: &Domain,
     axis: MedialAxis,
-) -> Chunk {
+    bytes: &mut Vec<u8>,
+) -> Option<Scene> {
     let text = match format {
-        Format::GeoJson => geojson::features(feature, &axis, drawing),
+        Format::GeoJson => {
+            let text = geojson::features(feature, &axis, drawing);
+            if !text.is_empty() {
+                bytes.extend_from_slice(SEPARATOR);
+            }
+            text
+        }
         Format::GeoJsonLines => geojson::feature_lines(feature, &axis, drawing),
         Format::Wkt => wkt::write(&axis, drawing),
         Format::Csv => csv::rows(feature, &axis, drawing),
         Format::Svg | Format::Png => {
-            return Chunk::Scene(Box::new(Scene { boundary: boundary(domain), axis }));
+            return Some(Scene { boundary: boundary(domain), axis });
         }
-        Format::Wkb => return Chunk::Bytes(wkb::write(&axis, drawing)),
+        Format::Wkb => {
+            bytes.extend(wkb::write(&axis, drawing));
+            return None;
+        }
         _ => axis_document::write(feature, &axis),
     };
-    Chunk::Bytes(text.into_bytes())
+    bytes.extend_from_slice(text.as_bytes());
+    None
 }
 
 fn boundary(domain: &Domain) -> Vec<Vec<medial::geom::Point>> {
@@ -60,31 +66,19 @@ impl Sink {
         crs: Option<Json>,
         picture: Options,
     ) -> Result<Self, Failure> {
-        Ok(Self {
-            output: Output::create(path)?,
-            format,
-            crs,
-            picture,
-            scenes: Vec::new(),
-            begun: false,
-            separated: true,
-        })
+        Ok(Self { output: Output::create(path)?, format, crs, picture, begun: false })
     }
 
-    pub fn add(&mut self, chunk: Chunk) -> Result<(), Failure> {
-        match chunk {
-            Chunk::Scene(scene) => self.scenes.push(*scene),
-            Chunk::Bytes(bytes) if bytes.is_empty() => {}
-            Chunk::Bytes(bytes) => {
-                self.begin()?;
-                if !self.separated {
-                    self.output.write(b",\n")?;
-                }
-                self.separated = self.format != Format::GeoJson;
-                self.output.write(&bytes)?;
-            }
+    /// Writes what [`encode`] made of axes that follow one another.
+    pub fn write(&mut self, mut bytes: &[u8]) -> Result<(), Failure> {
+        if bytes.is_empty() {
+            return Ok(());
         }
-        Ok(())
+        if !self.begun && self.format == Format::GeoJson {
+            bytes = bytes.strip_prefix(SEPARATOR).unwrap_or(bytes);
+        }
+        self.begin()?;
+        self.output.write(bytes)
     }
 
     fn begin(&mut self) -> Result<(), Failure> {
@@ -99,16 +93,16 @@ impl Sink {
     }
 
     /// Writes what comes last, and lets the output appear.
-    pub fn finish(mut self) -> Result<(), Failure> {
+    pub fn finish(mut self, scenes: &[Scene]) -> Result<(), Failure> {
         self.begin()?;
         match self.format {
             Format::GeoJson => self.output.write(geojson::FOOTER.as_bytes())?,
             Format::Svg => {
-                let picture = svg::write(&self.scenes, &self.picture);
+                let picture = svg::write(scenes, &self.picture);
                 self.output.write(picture.as_bytes())?;
             }
             Format::Png => {
-                let picture = png::write(&self.scenes, &self.picture)
+                let picture = png::write(scenes, &self.picture)
                     .map_err(|error| Failure::file("<picture>", error))?;
                 self.output.write(&picture)?;
             }

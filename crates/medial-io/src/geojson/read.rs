@@ -40,23 +40,23 @@ pub fn read(text: &str) -> Result<Layer<'_>, Error> {
         return Err(Error::Empty);
     }
     let object = parse_object(text, text)?;
-    let parts = if object.kind == "FeatureCollection" {
+    let slices = if object.kind == "FeatureCollection" {
         let why = "the FeatureCollection has no `features`";
         object.features.ok_or_else(|| syntax_at(text, 0, why))?
     } else {
         vec![parse(text, text)?]
     };
     let crs = object.crs.map(ToOwned::to_owned);
-    let len = Some(parts.len());
-    let features = parts.into_iter().enumerate().map(move |(k, raw)| feature(text, raw.get(), k));
-    Ok(Layer { crs, len, ..Layer::new(features) })
+    let len = Some(slices.len());
+    let slices = slices.into_iter().map(RawValue::get);
+    Ok(Layer { crs, len, ..Layer::of_slices(text, slices, feature) })
 }
 
 /// Reads one feature or geometry a line; record separators [RFC 8142] and empty lines are
 /// skipped, and a malformed line is an item of the layer.
 #[must_use]
 pub fn read_lines(text: &str) -> Layer<'_> {
-    Layer::new(lines(text).enumerate().map(move |(k, line)| feature(text, line, k)))
+    Layer::of_slices(text, lines(text), feature)
 }
 
 fn feature(text: &str, part: &str, index: usize) -> Result<Feature, FeatureError> {

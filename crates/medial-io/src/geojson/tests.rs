@@ -227,3 +227,28 @@ fn a_line_holds_one_feature_whatever_the_source_looked_like() {
         assert_eq!(value["properties"]["b"], "x,\ny");
     }
 }
+
+#[test]
+fn a_number_out_of_range_names_its_vertex() {
+    let text = r#"{"type":"Polygon","coordinates":[[[0,0],[9,0],[9,9]],[[1,1],[2,1e999],[2,2]]]}"#;
+    let error = read(text).unwrap().next().unwrap().unwrap_err();
+    let told = "line 1, column 68: ring 1, vertex 1: the number is out of range";
+    assert_eq!(error.to_string(), told);
+    let text = r#"{"type":"MultiPolygon","coordinates":[[[[0,0],[9,0],[-1e999,9]]]]}"#;
+    let error = read(text).unwrap().next().unwrap().unwrap_err();
+    assert!(error.to_string().contains("polygon 0, ring 0, vertex 2: "), "{error}");
+}
+
+#[test]
+fn a_coordinate_that_is_no_number_names_its_vertex() {
+    for token in ["NaN", "nan", "Infinity", "-Infinity", "-inf"] {
+        let text = format!(
+            r#"{{"type":"FeatureCollection","features":[{{"type":"Feature","properties":{{"a":[1,2]}},
+            "geometry":{{"type":"Polygon","coordinates":[[[0,0],[9,0],[{token},9]]]}}}}]}}"#
+        );
+        let error = read(&text).err().unwrap();
+        let told = "ring 0, vertex 2: a coordinate is not finite, and no JSON";
+        assert!(error.to_string().ends_with(told), "{token}: {error}");
+        assert!(error.to_string().starts_with("line 2, column "), "{token}: {error}");
+    }
+}

@@ -1,12 +1,16 @@
 use crate::json::{compact, quoted};
+use crate::number::push_decimal;
 use crate::path::{PathRecord, records};
 use crate::{Drawing, Feature, Json};
-use medial::axis::MedialAxis;
+use medial::axis::{MedialAxis, Path};
 use medial::geom::Point;
 use std::fmt::Write as _;
 
 /// The end of a collection.
 pub const FOOTER: &str = "\n]}\n";
+
+/// About as many bytes as a path takes, without the properties of its source.
+const PATH_BYTES: usize = 440;
 
 /// The beginning of a collection, up to its first feature.
 #[must_use]
@@ -32,9 +36,9 @@ pub fn feature_lines(source: &Feature, axis: &MedialAxis, drawing: Drawing) -> S
 }
 
 fn joined(source: &Feature, axis: &MedialAxis, drawing: Drawing, separator: &str) -> String {
-    let mut out = String::new();
     let tolerance = drawing.tolerance(axis);
     let common = common_properties(source, axis, drawing);
+    let mut out = String::with_capacity(axis.paths().len() * (common.len() + PATH_BYTES));
     for record in records(axis) {
         separate(&mut out, separator);
         out.push_str("{\"type\":\"Feature\",\"properties\":{");
@@ -73,22 +77,25 @@ fn keypoints(out: &mut String, axis: &MedialAxis, drawing: Drawing, common: &str
 
 fn path_properties(out: &mut String, record: &PathRecord, common: &str) {
     let curve = &record.curve;
-    let _ = write!(
-        out,
-        "{common}\"curve\":\"{}\",\"length\":{:?},\"radius_min\":{:?},\"radius_max\":{:?},\
-         \"radius_start\":{:?},\"radius_end\":{:?},\"kind_start\":\"{}\",\"kind_end\":\"{}\",\
-         \"governor_left\":{},\"governor_right\":{}",
-        curve.kind(),
-        curve.length(),
-        curve.radius_min(),
-        curve.radius_max(),
-        curve.radius_from(),
-        curve.radius_to(),
-        record.ends[0].kind,
-        record.ends[1].kind,
-        record.path.left,
-        record.path.right,
-    );
+    out.push_str(common);
+    out.push_str("\"curve\":\"");
+    out.push_str(curve.kind().name());
+    out.push_str("\",");
+    let mut number = |name: &str, value: f64| {
+        out.push_str(name);
+        push_decimal(out, value);
+    };
+    number("\"length\":", curve.length());
+    number(",\"radius_min\":", curve.radius_min());
+    number(",\"radius_max\":", curve.radius_max());
+    number(",\"radius_start\":", curve.radius_from());
+    number(",\"radius_end\":", curve.radius_to());
+    for (name, end) in [(",\"kind_start\":\"", 0), ("\",\"kind_end\":\"", 1)] {
+        out.push_str(name);
+        out.push_str(record.ends[end].kind.name());
+    }
+    let Path { left, right, .. } = record.path;
+    let _ = write!(out, "\",\"governor_left\":{left},\"governor_right\":{right}");
 }
 
 /// The properties every feature of one axis shares: those of the source, renamed where the name
@@ -129,8 +136,11 @@ fn separate(out: &mut String, separator: &str) {
 }
 
 fn position(out: &mut String, p: Point, radius: Option<f64>) {
-    let _ = match radius {
-        Some(radius) => write!(out, "[{:?},{:?},{radius:?}]", p.x, p.y),
-        None => write!(out, "[{:?},{:?}]", p.x, p.y),
-    };
+    let mut opening = '[';
+    for value in [p.x, p.y].into_iter().chain(radius) {
+        out.push(opening);
+        push_decimal(out, value);
+        opening = ',';
+    }
+    out.push(']');
 }

@@ -37,22 +37,24 @@ fn binary(bytes: &[u8]) -> Layer<'_> {
 }
 
 fn hexadecimal(text: &str) -> Layer<'_> {
-    Layer::new(lines(text).enumerate().map(move |(index, line)| {
-        let digit = |byte: u8| char::from(byte).to_digit(16);
-        let pairs = line.as_bytes().chunks(2);
-        let bytes: Option<Vec<u8>> = pairs
-            .map(|pair| match *pair {
-                [high, low] => Some((16 * digit(high)? + digit(low)?) as u8),
-                _ => None,
-            })
-            .collect();
-        let bytes = bytes.ok_or_else(|| {
-            let why = "a line of pairs of hexadecimal digits is expected";
-            let error = crate::text::syntax_at(text, crate::text::offset(text, line), why);
-            FeatureError { feature: index, id: None, error }
-        })?;
-        feature(&mut Reader { bytes: &bytes, at: 0, little: true }, index)
-    }))
+    Layer::of_slices(text, lines(text), hexadecimal_line)
+}
+
+fn hexadecimal_line(text: &str, line: &str, index: usize) -> Result<Feature, FeatureError> {
+    let digit = |byte: u8| char::from(byte).to_digit(16);
+    let pairs = line.as_bytes().chunks(2);
+    let bytes: Option<Vec<u8>> = pairs
+        .map(|pair| match *pair {
+            [high, low] => Some((16 * digit(high)? + digit(low)?) as u8),
+            _ => None,
+        })
+        .collect();
+    let bytes = bytes.ok_or_else(|| {
+        let why = "a line of pairs of hexadecimal digits is expected";
+        let error = crate::text::syntax_at(text, crate::text::offset(text, line), why);
+        FeatureError { feature: index, id: None, error }
+    })?;
+    feature(&mut Reader { bytes: &bytes, at: 0, little: true }, index)
 }
 
 fn feature(reader: &mut Reader, index: usize) -> Result<Feature, FeatureError> {

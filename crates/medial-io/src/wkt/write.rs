@@ -1,7 +1,8 @@
 use crate::Drawing;
-use crate::number::shortest;
+use crate::number::push_shortest;
 use crate::path::records;
 use medial::axis::{Curve, MedialAxis};
+use medial::geom::Point;
 
 /// The axis as one MULTILINESTRING, a line per path, with its line end.
 ///
@@ -10,37 +11,55 @@ use medial::axis::{Curve, MedialAxis};
 pub fn write(axis: &MedialAxis, drawing: Drawing) -> String {
     let tolerance = drawing.tolerance(axis);
     let z = if drawing.radius_as_z { "Z " } else { "" };
-    let lines = records(axis).map(|record| line(&record.curve, drawing, tolerance));
-    let lines = format!("MULTILINESTRING {z}{}", group(lines));
-    if !drawing.keypoints {
-        return format!("{lines}\n");
+    let mut out = String::with_capacity(LINE_BYTES * axis.paths().len());
+    if drawing.keypoints {
+        out.extend(["GEOMETRYCOLLECTION ", z, "("]);
     }
-    let points = axis.keypoints().iter().map(|k| {
-        let z =
-            if drawing.radius_as_z { format!(" {}", shortest(k.radius)) } else { String::new() };
-        format!("({} {}{z})", shortest(k.position.x), shortest(k.position.y))
-    });
-    format!("GEOMETRYCOLLECTION {z}({lines}, MULTIPOINT {z}{})\n", group(points))
+    out.extend(["MULTILINESTRING ", z]);
+    group(&mut out, records(axis), |out, record| line(out, &record.curve, drawing, tolerance));
+    if drawing.keypoints {
+        out.extend([", MULTIPOINT ", z]);
+        group(&mut out, axis.keypoints(), |out, keypoint| {
+            out.push('(');
+            point(out, keypoint.position, drawing.radius_as_z.then_some(keypoint.radius));
+            out.push(')');
+        });
+        out.push(')');
+    }
+    out.push('\n');
+    out
 }
+
+/// About as many bytes as a line takes.
+const LINE_BYTES: usize = 100;
 
 /// One curve as LINESTRING.
-pub(crate) fn line_string(curve: &Curve, drawing: Drawing, tolerance: f64) -> String {
-    let z = if drawing.radius_as_z { "Z " } else { "" };
-    format!("LINESTRING {z}{}", line(curve, drawing, tolerance))
+pub(crate) fn line_string(out: &mut String, curve: &Curve, drawing: Drawing, tolerance: f64) {
+    out.push_str(if drawing.radius_as_z { "LINESTRING Z " } else { "LINESTRING " });
+    line(out, curve, drawing, tolerance);
 }
 
-fn line(curve: &Curve, drawing: Drawing, tolerance: f64) -> String {
-    group(drawing.points(curve, tolerance).into_iter().map(|(p, radius)| {
-        let mut point = format!("{} {}", shortest(p.x), shortest(p.y));
-        if drawing.radius_as_z {
-            point.push(' ');
-            point.push_str(&shortest(radius));
-        }
-        point
-    }))
+fn line(out: &mut String, curve: &Curve, drawing: Drawing, tolerance: f64) {
+    group(out, drawing.points(curve, tolerance), |out, (p, radius)| {
+        point(out, p, drawing.radius_as_z.then_some(radius));
+    });
 }
 
-fn group(items: impl Iterator<Item = String>) -> String {
-    let items = items.collect::<Vec<_>>().join(", ");
-    if items.is_empty() { "EMPTY".to_owned() } else { format!("({items})") }
+fn point(out: &mut String, p: Point, radius: Option<f64>) {
+    push_shortest(out, p.x);
+    for value in [p.y].into_iter().chain(radius) {
+        out.push(' ');
+        push_shortest(out, value);
+    }
+}
+
+/// The items in brackets, or `EMPTY`.
+fn group<T>(out: &mut String, items: impl IntoIterator<Item = T>, item: impl Fn(&mut String, T)) {
+    let mut opening = "(";
+    for each in items {
+        out.push_str(opening);
+        item(out, each);
+        opening = ", ";
+    }
+    out.push_str(if opening == "(" { "EMPTY" } else { ")" });
 }

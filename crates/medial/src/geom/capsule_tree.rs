@@ -5,7 +5,8 @@
 //! since all bounds are rounded outwards; what an edge really is to the disk the visitor decides.
 //!
 //! # Method
-//! 1. Eight edges to a leaf and eight nodes to a node, in boundary order, so nothing is sorted.
+//! 1. Eight edges to a leaf and eight nodes to a node, in boundary order, so nothing is sorted; where
+//!    that serves badly, in the order of a space-filling curve.
 //! 2. A run of edges is bounded by a capsule: all points within a distance of a segment. It is thin
 //!    where the boundary is smooth or straight, whatever its direction; for one edge it is the edge.
 //! 3. The eight children of a node are kept side by side as numbers of 32 bits relative to the node's
@@ -14,7 +15,7 @@
 //! # Departures
 //! None.
 
-use super::{Point, Rect};
+use super::{Point, Rect, hilbert};
 
 /// Children of a node, and edges of a leaf.
 const FAN: usize = 8;
@@ -98,6 +99,8 @@ struct Node {
 /// The tree; see the module.
 #[derive(Clone, Debug)]
 pub struct CapsuleTree {
+    /// The edges in the order of the leaves, if that is not the order of the boundary.
+    order: Option<Vec<u32>>,
     /// First edge.
     base: u32,
     n_edges: u32,
@@ -117,9 +120,36 @@ impl CapsuleTree {
     /// Builds the tree over the edges `base` to `base + n_edges - 1`, each given by its two ends.
     #[must_use]
     pub fn new(base: u32, n_edges: u32, ends: impl Fn(u32) -> (Point, Point)) -> Self {
+        Self::over(base, n_edges, None, ends)
+    }
+
+    /// The same with edges sorted along a space-filling curve by their middles, for boundaries that
+    /// wind so much that runs of them are bounded by nothing smaller than all.
+    #[must_use]
+    pub fn along_a_curve(base: u32, n_edges: u32, ends: impl Fn(u32) -> (Point, Point)) -> Self {
+        let middle = |k: u32| {
+            let (a, b) = ends(k);
+            a + (b - a) * 0.5
+        };
+        let bounds = (base..base + n_edges).fold(Rect::EMPTY, |all, k| all.with(middle(k)));
+        let mut order: Vec<(u64, u32)> =
+            (base..base + n_edges).map(|k| (hilbert(&bounds, middle(k)), k)).collect();
+        order.sort_unstable();
+        let order = order.into_iter().map(|(_, k)| k).collect();
+        Self::over(base, n_edges, Some(order), ends)
+    }
+
+    fn over(
+        base: u32,
+        n_edges: u32,
+        order: Option<Vec<u32>>,
+        ends: impl Fn(u32) -> (Point, Point),
+    ) -> Self {
+        let ends = |k: u32| ends(order.as_ref().map_or(base + k, |order| order[k as usize]));
         let mut bounds = Rect::EMPTY;
         for k in 0..n_edges {
-            bounds = bounds.with(ends(base + k).0);
+            let (a, b) = ends(k);
+            bounds = bounds.with(a).with(b);
         }
         let size = (bounds.max.x - bounds.min.x).max(bounds.max.y - bounds.min.y);
         let scale = power_of_two_near(size);
@@ -133,7 +163,7 @@ impl CapsuleTree {
             let mut group = [Capsule::POINT; FAN];
             let count = (n_edges - first).min(FAN as u32) as usize;
             for (slot, k) in group[..count].iter_mut().zip(first..) {
-                let (a, b) = ends(base + k);
+                let (a, b) = ends(k);
                 let half = (b - a) * 0.5;
                 *slot = Capsule { centre: a + half, half, width: 0.0 };
             }
@@ -152,7 +182,7 @@ impl CapsuleTree {
             }
             runs = above;
         }
-        Self { base, n_edges, scale, slack, bounds, leaves, nodes, levels }
+        Self { order, base, n_edges, scale, slack, bounds, leaves, nodes, levels }
     }
 
     /// The numbers of the edges.
@@ -183,12 +213,16 @@ impl CapsuleTree {
         (a == 0 && d >= u64::from(self.n_edges) && b < c).then(|| (b, c - 1))
     }
 
-    /// Shows every edge that may be within the scope of `look` and is not hidden, in a fixed order.
+    /// Shows every edge that may be within the scope of `look` and is not hidden, in a fixed order;
+    /// gives the number of nodes it went through.
     #[inline]
-    pub fn visit(&self, hidden: Hidden, look: &mut impl Look) {
+    pub fn visit(&self, hidden: Hidden, look: &mut impl Look) -> u64 {
         if self.n_edges == 0 {
-            return;
+            return 0;
         }
+        let all_hidden = hidden;
+        // In another order nothing is known of whole runs.
+        let hidden = if self.order.is_some() { Hidden::default() } else { hidden };
         let hidden = hidden.0.map(|(first, end)| {
             (u64::from(first.max(self.base) - self.base), u64::from(end.max(self.base) - self.base))
         });
@@ -204,7 +238,9 @@ impl CapsuleTree {
         }
         // A level is that of the children: `top` for the node where the visit begins.
         let mut level = top;
+        let mut entered = 0_u64;
         loop {
+            entered += 1;
             // Enter node `number` of `level`.
             if level == 0 {
                 let leaf = &self.leaves[number as usize];
@@ -214,7 +250,15 @@ impl CapsuleTree {
                 while mask != 0 {
                     let k = mask.trailing_zeros();
                     mask &= mask - 1;
-                    look.edge(self.base + first + k);
+                    match &self.order {
+                        None => look.edge(self.base + first + k),
+                        Some(order) => {
+                            let edge = order[(first + k) as usize];
+                            if !all_hidden.holds(edge) {
+                                look.edge(edge);
+                            }
+                        }
+                    }
                 }
             } else {
                 let (start, count) = self.levels[level - 1];
@@ -230,7 +274,7 @@ impl CapsuleTree {
             // Go on with the next waiting child.
             loop {
                 if level > top {
-                    return;
+                    return entered;
                 }
                 let (first, mask) = waiting[level];
                 if mask != 0 {

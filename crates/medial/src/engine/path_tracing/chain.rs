@@ -335,14 +335,18 @@ impl Search<'_> {
     /// Whether the spoke of a corner turns on the way to a disk as it must, by less than half a turn:
     /// clockwise on the right, counterclockwise on the left.
     fn turns(&self, gap: &Gap, corner: Point, disk: &TouchingDisk, side: f64) -> bool {
-        let from = gap.start.centre - corner;
-        let to = disk.centre + (disk.origin - corner);
-        let turn = side * from.cross(to);
-        let sizes = (from.x.abs() + from.y.abs(), to.x.abs() + to.y.abs());
-        let bound = if disk.bound.is_finite() { disk.bound } else { SLACK * disk.radius };
-        let doubt = gap.start.doubt + bound + 8.0 * U * (sizes.0 + sizes.1);
-        let doubt = 2.0 * doubt * (sizes.0 + sizes.1);
-        turn < -doubt || turn <= doubt && from.dot(to) > 0.0
+        let (turn, doubt, along) = spokes(gap, corner, disk, side);
+        turn < -doubt || turn <= doubt && along > 0.0
+    }
+
+    /// Whether the spoke of a corner that governs would have to turn back on the way to a disk: the
+    /// path leaves the corner before.
+    pub fn turns_back(&self, gap: &Gap, disk: &TouchingDisk) -> bool {
+        [(gap.right, 1.0), (gap.left, -1.0)].into_iter().any(|(site, side)| {
+            let corner = self.domain.edge(site.index()).start;
+            let (turn, doubt, _) = spokes(gap, corner, disk, side);
+            !site.is_edge() && turn > doubt
+        })
     }
 
     /// What comes next between two governors, as far as their own chains tell.
@@ -532,7 +536,7 @@ impl Search<'_> {
                     if self.rings.is_some() {
                         let here = self.passed.last().map_or(anchor, |p| Start::at(&p.disk));
                         let gap = Gap::new(right, left, here, front);
-                        let slack = 1e-6 * (disk.radius + here.radius) + disk.bound + here.doubt;
+                        let slack = disk.bound + here.doubt + 64.0 * U * self.largest;
                         if gap.course(self.domain).position(&disk) <= slack
                             || contact_behind(&contacts, right, left).is_some()
                             || !self.is_open(right, left, anchor, Round::disk(&disk))
@@ -604,4 +608,15 @@ impl Search<'_> {
         });
         !rings.any(self.domain, links)
     }
+}
+
+/// The turn of a corner's spoke from the start of a path to a disk, the bound on its error, and whether
+/// both spokes point to one side; negative where it turns as it must on this side of the path.
+fn spokes(gap: &Gap, corner: Point, disk: &TouchingDisk, side: f64) -> (f64, f64, f64) {
+    let from = gap.start.centre - corner;
+    let to = disk.centre + (disk.origin - corner);
+    let sizes = from.x.abs() + from.y.abs() + to.x.abs() + to.y.abs();
+    let bound = if disk.bound.is_finite() { disk.bound } else { SLACK * disk.radius };
+    let doubt = gap.start.doubt + bound + 8.0 * U * sizes;
+    (side * from.cross(to), 2.0 * doubt * sizes, from.dot(to))
 }

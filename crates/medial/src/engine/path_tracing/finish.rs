@@ -53,6 +53,11 @@ impl Traced {
         }
     }
 
+    /// Keypoints traced since.
+    pub fn since(&self, mark: Mark) -> usize {
+        self.keypoints.len() - mark.keypoints
+    }
+
     /// Forgets what was traced since.
     pub fn go_back(&mut self, mark: Mark) {
         self.keypoints.truncate(mark.keypoints);
@@ -103,9 +108,7 @@ impl Traced {
         triple: [Site; 3],
         list: &[Site],
     ) -> u32 {
-        if let Some(fixed) = fixed
-            && fixed.is_precise()
-        {
+        if let Some(fixed) = fixed.filter(|fixed| fixed.is_precise()) {
             return self.add(fixed.position(), fixed.radius, KeypointKind::Junction, list);
         }
         let Start { centre, radius, doubt, .. } = Start::at(fixed.unwrap_or(disk));

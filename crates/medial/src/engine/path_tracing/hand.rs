@@ -50,6 +50,7 @@ impl<'a> Hand<'a> {
         self.watch.check()?;
         let broken = EngineError::Internal { stage: "preparing the search", place: start.centre };
         let search = self.search.as_mut().ok_or(broken)?;
+        search.mend_tree();
         let chased = if self.single { None } else { search.chase(right, left, start) };
         let Some(found) = chased else {
             let found = search.find(right, left, start)?;

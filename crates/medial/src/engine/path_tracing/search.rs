@@ -5,8 +5,8 @@
 //! counterclockwise order is a keypoint however it was proposed, and the next one on the path
 //! unless a whole ring lies between its disk and the one at the start ([`super::rings`]).
 
-use std::cell::OnceCell;
-use std::sync::Arc;
+use std::cell::{Cell, OnceCell};
+use std::sync::{Arc, OnceLock};
 
 use super::chain::Passed;
 use super::contacts::Contacts;
@@ -102,6 +102,10 @@ const MOST_TRIES: usize = 100_000;
 /// Sites that the last resort weighs before it takes in all there are.
 const WIDEST: usize = 64;
 
+/// Visits after which the tree may be sorted anew, and nodes a visit from which it is.
+const VISITS: u64 = 500;
+const NODES: u64 = 100;
+
 /// Tries before only exact arithmetic proposes.
 const FLOATING_TRIES: usize = 48;
 
@@ -109,6 +113,8 @@ const FLOATING_TRIES: usize = 48;
 #[derive(Clone, Debug)]
 pub(super) struct Index {
     tree: Arc<CapsuleTree>,
+    /// The tree sorted anew, if anybody needs it.
+    sorted: Arc<OnceLock<Arc<CapsuleTree>>>,
     rings: Option<Arc<HiddenRings>>,
 }
 
@@ -119,7 +125,7 @@ impl Index {
         let n: u32 = domain.walks()[walks.clone()].iter().map(|w| w.len).sum();
         let tree = CapsuleTree::new(first, n, |k| (domain.edge(k).start, domain.end(k)));
         let rings = HiddenRings::new(domain, walks);
-        Self { tree: Arc::new(tree), rings: rings.map(Arc::new) }
+        Self { tree: Arc::new(tree), sorted: Arc::default(), rings: rings.map(Arc::new) }
     }
 }
 
@@ -127,6 +133,11 @@ impl Index {
 pub(super) struct Search<'a> {
     pub domain: &'a Domain,
     pub tree: Arc<CapsuleTree>,
+    /// The tree sorted anew, once it is, and whether this search uses it.
+    sorted: Arc<OnceLock<Arc<CapsuleTree>>>,
+    mended: bool,
+    /// Nodes that visits went through, and visits.
+    work: Cell<(u64, u64)>,
     /// No disk inside the polygon has a larger radius.
     pub largest: f64,
     pub rings: Option<Arc<HiddenRings>>,
@@ -155,10 +166,13 @@ impl<'a> Search<'a> {
 
     /// The same with an index that is there already.
     pub fn over(domain: &'a Domain, index: Index, watch: Watch<'a>) -> Self {
-        let Index { tree, rings } = index;
+        let Index { tree, sorted, rings } = index;
         let bounds = tree.bounds();
         Self {
             domain,
+            sorted,
+            mended: false,
+            work: Cell::new((0, 0)),
             largest: (bounds.max - bounds.min).norm(),
             tree,
             rings,
@@ -171,6 +185,28 @@ impl<'a> Search<'a> {
             tried: Vec::new(),
             watch,
         }
+    }
+
+    /// Sorts the tree anew if visits have gone through too many nodes of it.
+    pub fn mend_tree(&mut self) {
+        let (nodes, visits) = self.work.get();
+        if self.mended || visits < VISITS || nodes < NODES * visits {
+            return;
+        }
+        self.mended = true;
+        let (domain, items) = (self.domain, self.tree.items());
+        let sort = || {
+            let ends = |k| (domain.edge(k).start, domain.end(k));
+            Arc::new(CapsuleTree::along_a_curve(items.start, items.end - items.start, ends))
+        };
+        self.tree = self.sorted.get_or_init(sort).clone();
+    }
+
+    /// Takes note of a visit of the tree through that many nodes.
+    #[inline]
+    pub fn count_visit(&self, entered: u64) {
+        let (nodes, visits) = self.work.get();
+        self.work.set((nodes + entered, visits + 1));
     }
 
     /// The end of the path that leaves `start` between `right` and `left`.
@@ -342,7 +378,9 @@ impl<'a> Search<'a> {
                     }
                 }
                 Verdict::Clear(contacts) => {
-                    if self.rings.is_some() && !self.is_ahead(gap, &disk, &triple) {
+                    if self.rings.is_some()
+                        && (self.turns_back(gap, &disk) || !self.is_ahead(gap, &disk, &triple))
+                    {
                         self.banned.push(proposal.site);
                         seen.retain(|&s| s != proposal.site);
                         best = None;

@@ -38,8 +38,7 @@ pub struct Steps<'a> {
 
 impl<'a> Steps<'a> {
     pub(super) fn new(domain: &'a Domain) -> Result<Self, EngineError> {
-        let mut tracer = Tracer::new(domain, Watch::new(&Options::default()))?;
-        tracer.hand.single = true;
+        let tracer = Tracer::one_by_one(domain, Watch::new(&Options::default()))?;
         Ok(Self { tracer, failed: false })
     }
 }

@@ -21,6 +21,34 @@ struct Pending {
     start: Start,
 }
 
+/// How a polygon is traced; each way takes longer than the one before and trusts less.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Care {
+    /// Chains of transitions at once; that no ring was lost is counted in the end.
+    Quick,
+    /// The same, every piece of a path searched for whole rings.
+    Rings,
+    /// Every path by itself.
+    Single,
+}
+
+impl Care {
+    /// The way to take after this one has failed, if it was our fault and there is one.
+    pub fn after(self, error: &EngineError) -> Option<Self> {
+        match (error, self) {
+            (EngineError::Internal { .. }, Self::Quick) => Some(Self::Rings),
+            (EngineError::Internal { .. }, Self::Rings) => Some(Self::Single),
+            _ => None,
+        }
+    }
+}
+
+/// More keypoints than there can be with that many edges: an edge and a corner govern at most three
+/// each, holes and components some more.
+pub(super) fn most_keypoints(n_edges: usize) -> usize {
+    8 * n_edges + 64
+}
+
 /// The tracing, one path at a time; the paper's stack of paths instead of recursion.
 pub(super) struct Tracer<'a> {
     /// Walks of each polygon.
@@ -37,8 +65,13 @@ pub(super) struct Tracer<'a> {
     met: Vec<bool>,
     /// Number of the polygon's first walk.
     first_walk: u32,
+    /// More keypoints than the current polygon can have.
+    most: usize,
     /// What was traced before the current polygon.
     before: Mark,
+    /// How the polygons are traced, and how the current one is.
+    least_care: Care,
+    care: Care,
 }
 
 /// The walks of each polygon of a domain.
@@ -70,6 +103,12 @@ impl<'a> Tracer<'a> {
         Ok(Self::over(polygons(domain)?, Hand::new(domain, watch)))
     }
 
+    /// The same, every path looked for by itself.
+    pub fn one_by_one(domain: &'a Domain, watch: Watch<'a>) -> Result<Self, EngineError> {
+        let tracer = Self::new(domain, watch)?;
+        Ok(Self { least_care: Care::Single, care: Care::Single, ..tracer })
+    }
+
     /// The tracing of some polygons.
     pub fn over(polygons: Vec<Range<usize>>, hand: Hand<'a>) -> Self {
         Self {
@@ -81,7 +120,10 @@ impl<'a> Tracer<'a> {
             gaps: None,
             met: Vec::new(),
             first_walk: 0,
+            most: 0,
             before: Mark::default(),
+            least_care: Care::Quick,
+            care: Care::Quick,
         }
     }
 
@@ -94,8 +136,10 @@ impl<'a> Tracer<'a> {
                     _ => true,
                 };
                 if taken {
-                    self.trace(pending)?;
-                    return Ok(true);
+                    match self.trace(pending) {
+                        Ok(()) => return Ok(true),
+                        Err(error) => self.start_again(error)?,
+                    }
                 }
             }
             if let Some(corner) = self.seeds.pop() {
@@ -104,20 +148,33 @@ impl<'a> Tracer<'a> {
                 self.stack.push(Pending { keypoint, right, left, gap: None, start });
                 continue;
             }
-            // A ring that hides between two empty disks governs nothing: look at every piece then.
-            let careful = self.met.contains(&false)
-                && self.hand.search.take().is_some_and(|search| !search.careful);
-            if careful {
-                self.hand.traced.go_back(self.before);
-                self.current -= 1;
+            if self.met.contains(&false) {
+                // A ring that hides between two empty disks governs nothing.
+                let place = self.hand.domain.edge(0).start;
+                self.met.clear();
+                self.start_again(EngineError::Internal { stage: "counting rings", place })?;
+                continue;
             }
+            self.care = self.least_care;
             let Some(walks) = self.polygons.get(self.current).cloned() else { return Ok(false) };
             self.current += 1;
-            self.enter_polygon(walks, careful);
+            self.enter_polygon(walks);
         }
     }
 
-    fn enter_polygon(&mut self, walks: Range<usize>, careful: bool) {
+    /// Goes back to the start of the current polygon, to take more care.
+    fn start_again(&mut self, error: EngineError) -> Result<(), EngineError> {
+        self.care = self.care.after(&error).ok_or(error)?;
+        self.hand.traced.go_back(self.before);
+        self.stack.clear();
+        self.seeds.clear();
+        self.met.clear();
+        let Some(walks) = self.polygons.get(self.current - 1).cloned() else { return Err(error) };
+        self.enter_polygon(walks);
+        Ok(())
+    }
+
+    fn enter_polygon(&mut self, walks: Range<usize>) {
         self.before = self.hand.traced.mark();
         let Hand { domain, watch, .. } = &self.hand;
         let all = &domain.walks()[walks.clone()];
@@ -133,8 +190,11 @@ impl<'a> Tracer<'a> {
             self.met.extend(all.iter().map(|w| !w.hole));
         }
         self.first_walk = walks.start as u32;
+        let n_edges: u32 = all.iter().map(|w| w.len).sum();
+        self.most = most_keypoints(n_edges as usize);
         let mut search = Search::new(domain, walks, watch.clone());
-        search.careful = careful;
+        search.careful = self.care > Care::Quick;
+        self.hand.single = self.care == Care::Single;
         self.hand.search = Some(search);
     }
 
@@ -167,6 +227,10 @@ impl<'a> Tracer<'a> {
             }
         };
         self.hand.traced.paths.push(path(from, to, right, left));
+        if self.hand.traced.since(self.before) > self.most {
+            let place = start.centre;
+            return Err(EngineError::Internal { stage: "counting keypoints", place });
+        }
         Ok(())
     }
 

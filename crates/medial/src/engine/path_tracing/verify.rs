@@ -117,7 +117,8 @@ impl<'s, 'a> Verify<'s, 'a> {
 
     pub fn run(&mut self) {
         let hidden = self.gap.front.map_or(Hidden::default(), |f| f.hidden());
-        self.search.tree.visit(hidden, self);
+        let search = self.search;
+        search.count_visit(search.tree.visit(hidden, self));
     }
 
     fn look_into(&mut self, disk: TouchingDisk) {
