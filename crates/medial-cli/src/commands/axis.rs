@@ -7,7 +7,7 @@ use crate::report::Entry;
 use crate::timings::timed;
 use medial::axis::{Engine, MedialAxis};
 use medial::domain::Domain;
-use medial::engine::{EngineError, path_tracing};
+use medial::engine::{self, EngineError, path_tracing_with};
 use medial_io::svg::Options;
 use medial_io::{Drawing, Format};
 use std::io::IsTerminal as _;
@@ -27,11 +27,13 @@ pub fn run(args: &AxisArgs) -> Result<Status, Failure> {
     let mut sink = Sink::create(args.output.as_deref(), format, layer.crs.clone(), picture)?;
     let mut scenes = Vec::new();
     let mut write = std::time::Duration::ZERO;
+    let (_, threads) = run.threads(&layer);
+    let options = engine::Options { threads, ..engine::Options::default() };
     let status = run.each(
         &input,
         layer,
         |feature, domain, stages, bytes| {
-            let axis = timed(&mut stages.engine, || engine(args.engine, domain))
+            let axis = timed(&mut stages.engine, || trace(args.engine, domain, &options))
                 .map_err(|error| Entry::refused(code(&error), error.to_string()))?;
             Ok(timed(&mut stages.write, || encode(format, drawing, feature, domain, axis, bytes)))
         },
@@ -46,9 +48,13 @@ pub fn run(args: &AxisArgs) -> Result<Status, Failure> {
     Ok(status)
 }
 
-fn engine(engine: Engine, domain: &Domain) -> Result<MedialAxis, EngineError> {
+fn trace(
+    engine: Engine,
+    domain: &Domain,
+    options: &engine::Options<'_>,
+) -> Result<MedialAxis, EngineError> {
     match engine {
-        Engine::PathTracing => path_tracing(domain),
+        Engine::PathTracing => path_tracing_with(domain, options),
         _ => Err(EngineError::Internal {
             stage: "choosing the engine",
             place: medial::geom::Point::default(),

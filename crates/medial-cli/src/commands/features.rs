@@ -71,6 +71,7 @@ impl<'a> Run<'a> {
     ) -> Result<Status, Failure> {
         let common = self.common;
         let progress = Progress::new(common.progress, common.quiet, layer.len);
+        let (at_once, _) = self.threads(&layer);
         let mut report = Report { input: input.name.clone(), ..Report::default() };
         let mut find = Duration::ZERO;
         // Bytes of earlier batches, for their memory: it grows once and stays warm.
@@ -78,7 +79,7 @@ impl<'a> Run<'a> {
         let spare = || spare.lock().unwrap_or_else(PoisonError::into_inner);
         let broke = ordered(
             Batches { parts: layer.parts(), find: &mut find },
-            common.threads.unwrap_or_else(all_processors),
+            at_once,
             |batch| {
                 let mut bytes = spare().pop().unwrap_or_default();
                 let process = |part| process(part, common, &mut bytes, &work);
@@ -122,6 +123,16 @@ impl<'a> Run<'a> {
             Some(None) => Ok(Status::NoResult),
             None => Ok(summary(&report, input, &progress)),
         }
+    }
+
+    /// How many features to work on at once, and with how many threads on each: where there are few
+    /// features, the threads left over share the work on one.
+    pub fn threads(&self, layer: &Layer<'_>) -> (NonZeroUsize, NonZeroUsize) {
+        let threads = self.common.threads.unwrap_or_else(all_processors);
+        let features = layer.len.and_then(NonZeroUsize::new).unwrap_or(threads);
+        let at_once = threads.min(features);
+        let each = NonZeroUsize::new(threads.get() / at_once).unwrap_or(NonZeroUsize::MIN);
+        (at_once, each)
     }
 
     /// Writes the timings, if they are asked for.

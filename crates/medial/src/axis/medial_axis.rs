@@ -85,9 +85,14 @@ impl Keypoint {
         Self { position, radius, kind, governors }
     }
 
-    /// Moves the start of its governors on.
-    pub(crate) fn shift_governors(&mut self, by: u32) {
-        self.governors += by;
+    /// Where its governors start in the common list.
+    pub(crate) fn first_governor(&self) -> u32 {
+        self.governors
+    }
+
+    /// The same with its governors at another place of the list.
+    pub(crate) fn with_governors(self, governors: u32) -> Self {
+        Self { governors, ..self }
     }
 }
 

@@ -214,7 +214,7 @@ impl CapsuleTree {
     }
 
     /// Shows every edge that may be within the scope of `look` and is not hidden, in a fixed order;
-    /// gives the number of nodes entered.
+    /// gives the number of nodes it went through.
     #[inline]
     pub fn visit(&self, hidden: Hidden, look: &mut impl Look) -> u64 {
         if self.n_edges == 0 {

@@ -81,6 +81,15 @@ impl Traced {
         self.rough.truncate(mark.rough);
     }
 
+    /// Makes room for about that many paths.
+    pub fn reserve(&mut self, n_paths: usize) {
+        // One keypoint for each path and three governors for each, and some more.
+        let room = n_paths + n_paths / 16;
+        self.keypoints.reserve(room);
+        self.governors.reserve(3 * room);
+        self.paths.reserve(room);
+    }
+
     /// Whether a keypoint has these governors, from the smallest one on.
     pub fn has_governors(&self, keypoint: u32, list: &[Site]) -> bool {
         let own = axis::governors(&self.keypoints, &self.governors, keypoint);
@@ -114,9 +123,7 @@ impl Traced {
         triple: [Site; 3],
         list: &[Site],
     ) -> u32 {
-        if let Some(fixed) = fixed
-            && fixed.is_precise()
-        {
+        if let Some(fixed) = fixed.filter(|fixed| fixed.is_precise()) {
             return self.add(fixed.position(), fixed.radius, KeypointKind::Junction, list);
         }
         let Start { centre, radius, doubt, .. } = Start::at(fixed.unwrap_or(disk));
@@ -140,16 +147,14 @@ impl Traced {
 
     /// Adds keypoints of other tables.
     pub fn copy_keypoints(&mut self, other: &Self, keypoints: Range<u32>) {
-        for k in keypoints {
-            let first = self.governors.len() as u32;
-            self.governors.extend_from_slice(axis::governors(
-                &other.keypoints,
-                &other.governors,
-                k,
-            ));
-            let Keypoint { position, radius, kind, .. } = other.keypoints[k as usize];
-            self.keypoints.push(Keypoint::new(position, radius, kind, first));
-        }
+        let (start, end) = (keypoints.start as usize, keypoints.end as usize);
+        let Some(first) = other.keypoints.get(start).map(Keypoint::first_governor) else { return };
+        let last = other.keypoints.get(end).map(Keypoint::first_governor);
+        let last = last.map_or(other.governors.len(), |last| last as usize);
+        let offset = self.governors.len() as u32;
+        self.governors.extend_from_slice(&other.governors[first as usize..last]);
+        let moved = |k: &Keypoint| k.with_governors(offset + (k.first_governor() - first));
+        self.keypoints.extend(other.keypoints[start..end].iter().map(moved));
     }
 
     /// The axis: every position computed as precisely as promised.

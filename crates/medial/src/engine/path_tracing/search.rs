@@ -6,7 +6,7 @@
 //! unless a whole ring lies between its disk and the one at the start ([`super::rings`]).
 
 use std::cell::{Cell, OnceCell};
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use super::chain::Passed;
 use super::contacts::Contacts;
@@ -113,6 +113,8 @@ const FLOATING_TRIES: usize = 48;
 #[derive(Clone, Debug)]
 pub(super) struct Index {
     tree: Arc<CapsuleTree>,
+    /// The tree sorted anew, if anybody needs it.
+    sorted: Arc<OnceLock<Arc<CapsuleTree>>>,
     rings: Option<Arc<HiddenRings>>,
 }
 
@@ -123,7 +125,7 @@ impl Index {
         let n: u32 = domain.walks()[walks.clone()].iter().map(|w| w.len).sum();
         let tree = CapsuleTree::new(first, n, |k| (domain.edge(k).start, domain.end(k)));
         let rings = HiddenRings::new(domain, walks);
-        Self { tree: Arc::new(tree), rings: rings.map(Arc::new) }
+        Self { tree: Arc::new(tree), sorted: Arc::default(), rings: rings.map(Arc::new) }
     }
 }
 
@@ -131,10 +133,11 @@ impl Index {
 pub(super) struct Search<'a> {
     pub domain: &'a Domain,
     pub tree: Arc<CapsuleTree>,
-    /// Nodes that visits of the tree entered, and visits.
-    pub work: Cell<(u64, u64)>,
-    /// Whether the tree was sorted anew.
+    /// The tree sorted anew, once it is, and whether this search uses it.
+    sorted: Arc<OnceLock<Arc<CapsuleTree>>>,
     mended: bool,
+    /// Nodes that visits went through, and visits.
+    work: Cell<(u64, u64)>,
     /// No disk inside the polygon has a larger radius.
     pub largest: f64,
     pub rings: Option<Arc<HiddenRings>>,
@@ -163,12 +166,13 @@ impl<'a> Search<'a> {
 
     /// The same with an index that is there already.
     pub fn over(domain: &'a Domain, index: Index, watch: Watch<'a>) -> Self {
-        let Index { tree, rings } = index;
+        let Index { tree, sorted, rings } = index;
         let bounds = tree.bounds();
         Self {
             domain,
-            work: Cell::new((0, 0)),
+            sorted,
             mended: false,
+            work: Cell::new((0, 0)),
             largest: (bounds.max - bounds.min).norm(),
             tree,
             rings,
@@ -190,10 +194,19 @@ impl<'a> Search<'a> {
             return;
         }
         self.mended = true;
-        let items = self.tree.items();
-        let n_edges = items.end - items.start;
-        let ends = |k| (self.domain.edge(k).start, self.domain.end(k));
-        self.tree = Arc::new(CapsuleTree::along_a_curve(items.start, n_edges, ends));
+        let (domain, items) = (self.domain, self.tree.items());
+        let sort = || {
+            let ends = |k| (domain.edge(k).start, domain.end(k));
+            Arc::new(CapsuleTree::along_a_curve(items.start, items.end - items.start, ends))
+        };
+        self.tree = self.sorted.get_or_init(sort).clone();
+    }
+
+    /// Takes note of a visit of the tree through that many nodes.
+    #[inline]
+    pub fn count_visit(&self, entered: u64) {
+        let (nodes, visits) = self.work.get();
+        self.work.set((nodes + entered, visits + 1));
     }
 
     /// The end of the path that leaves `start` between `right` and `left`.

@@ -1,7 +1,7 @@
 //! The tracing as values to look at, one path at a time.
 
 use super::search::Candidate;
-use super::tracer::{Care, Tracer};
+use super::tracer::Tracer;
 use crate::domain::{Domain, Site};
 use crate::engine::watch::Watch;
 use crate::engine::{EngineError, Options};
@@ -38,8 +38,7 @@ pub struct Steps<'a> {
 
 impl<'a> Steps<'a> {
     pub(super) fn new(domain: &'a Domain) -> Result<Self, EngineError> {
-        let tracer = Tracer::new(domain, Watch::new(&Options::default()))?;
-        let tracer = tracer.with_care(Care::Single);
+        let tracer = Tracer::one_by_one(domain, Watch::new(&Options::default()))?;
         Ok(Self { tracer, failed: false })
     }
 }

@@ -32,6 +32,23 @@ pub(super) enum Care {
     Single,
 }
 
+impl Care {
+    /// The way to take after this one has failed, if it was our fault and there is one.
+    pub fn after(self, error: &EngineError) -> Option<Self> {
+        match (error, self) {
+            (EngineError::Internal { .. }, Self::Quick) => Some(Self::Rings),
+            (EngineError::Internal { .. }, Self::Rings) => Some(Self::Single),
+            _ => None,
+        }
+    }
+}
+
+/// More keypoints than there can be with that many edges: an edge and a corner govern at most three
+/// each, holes and components some more.
+pub(super) fn most_keypoints(n_edges: usize) -> usize {
+    8 * n_edges + 64
+}
+
 /// The tracing, one path at a time; the paper's stack of paths instead of recursion.
 pub(super) struct Tracer<'a> {
     /// Walks of each polygon.
@@ -89,6 +106,12 @@ impl<'a> Tracer<'a> {
         Ok(Self::over(polygons(domain)?, hand))
     }
 
+    /// The same, every path looked for by itself.
+    pub fn one_by_one(domain: &'a Domain, watch: Watch<'a>) -> Result<Self, EngineError> {
+        let tracer = Self::new(domain, watch)?;
+        Ok(Self { least_care: Care::Single, care: Care::Single, ..tracer })
+    }
+
     /// The tracing of some polygons.
     pub fn over(polygons: Vec<Range<usize>>, hand: Hand<'a>) -> Self {
         Self {
@@ -105,11 +128,6 @@ impl<'a> Tracer<'a> {
             least_care: Care::Quick,
             care: Care::Quick,
         }
-    }
-
-    /// The same with more care from the beginning.
-    pub fn with_care(self, care: Care) -> Self {
-        Self { least_care: care, care, ..self }
     }
 
     /// Traces on to the next keypoint that is no plain transition; false when all is done.
@@ -149,11 +167,7 @@ impl<'a> Tracer<'a> {
 
     /// Goes back to the start of the current polygon, to take more care.
     fn start_again(&mut self, error: EngineError) -> Result<(), EngineError> {
-        self.care = match (&error, self.care) {
-            (EngineError::Internal { .. }, Care::Quick) => Care::Rings,
-            (EngineError::Internal { .. }, Care::Rings) => Care::Single,
-            _ => return Err(error),
-        };
+        self.care = self.care.after(&error).ok_or(error)?;
         self.hand.traced.go_back(self.before);
         self.stack.clear();
         self.seeds.clear();
@@ -179,9 +193,8 @@ impl<'a> Tracer<'a> {
             self.met.extend(all.iter().map(|w| !w.hole));
         }
         self.first_walk = walks.start as u32;
-        // An edge and a corner govern at most three each, holes and components some more.
         let n_edges: u32 = all.iter().map(|w| w.len).sum();
-        self.most = 8 * n_edges as usize + 64;
+        self.most = most_keypoints(n_edges as usize);
         let mut search = Search::new(domain, walks, watch.clone());
         search.careful = self.care > Care::Quick;
         self.hand.single = self.care == Care::Single;
@@ -218,8 +231,8 @@ impl<'a> Tracer<'a> {
         };
         self.hand.traced.paths.push(path(from, to, right, left));
         if self.hand.traced.since(self.before) > self.most {
-            let stage = "counting keypoints";
-            return Err(EngineError::Internal { stage, place: start.centre });
+            let place = start.centre;
+            return Err(EngineError::Internal { stage: "counting keypoints", place });
         }
         Ok(())
     }

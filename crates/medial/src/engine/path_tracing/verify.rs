@@ -118,9 +118,7 @@ impl<'s, 'a> Verify<'s, 'a> {
     pub fn run(&mut self) {
         let hidden = self.gap.front.map_or(Hidden::default(), |f| f.hidden());
         let search = self.search;
-        let entered = search.tree.visit(hidden, self);
-        let (nodes, visits) = search.work.get();
-        search.work.set((nodes + entered, visits + 1));
+        search.count_visit(search.tree.visit(hidden, self));
     }
 
     fn look_into(&mut self, disk: TouchingDisk) {

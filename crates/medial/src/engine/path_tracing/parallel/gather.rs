@@ -28,6 +28,7 @@ pub(super) fn gather(
     let numbers: Vec<AtomicU32> = (0..n_sites).map(|_| AtomicU32::new(NONE)).collect();
     let groups = each(threads, split(pieces, &shares, threads), |group| {
         let mut traced = Traced::default();
+        traced.reserve(shares.iter().map(|s| s.traced.paths.len()).sum::<usize>() / threads);
         for piece in group {
             copy(&mut traced, piece, &shares);
         }
@@ -71,7 +72,7 @@ pub(super) fn gather(
     let groups = each(threads, groups.into_iter().zip(first_governors).collect(), |group| {
         let (mut group, first_governor) = group;
         for keypoint in &mut group.keypoints {
-            keypoint.shift_governors(first_governor);
+            *keypoint = keypoint.with_governors(first_governor + keypoint.first_governor());
         }
         for site in &mut group.governors {
             *site = number(*site);

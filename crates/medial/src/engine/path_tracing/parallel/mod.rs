@@ -35,7 +35,7 @@ use self::pool::{Pool, StopOnPanic};
 use self::seeds::Seeds;
 use self::worker::{Share, Task, Worker};
 use super::search::Index;
-use super::tracer::polygons;
+use super::tracer::{Care, polygons};
 use crate::axis::MedialAxis;
 use crate::domain::Domain;
 use crate::engine::watch::Watch;
@@ -54,8 +54,7 @@ const CHUNK: usize = 1000;
 /// What the threads share.
 struct Shared<'a> {
     domain: &'a Domain,
-    /// Whether every piece of a path is searched for whole rings.
-    careful: bool,
+    care: Care,
     /// Polygons that several threads trace together.
     large: Vec<Large>,
     /// The others, in groups.
@@ -89,32 +88,30 @@ enum Part {
 pub(super) fn trace(domain: &Domain, options: &Options<'_>) -> Result<MedialAxis, EngineError> {
     let watch = Watch::new(options);
     watch.check()?;
-    let loops = domain.walks().iter().any(|w| w.hole);
-    let overlooked = EngineError::Internal {
-        stage: "counting rings",
-        place: domain.edges().first().map_or(Point::default(), |e| e.start),
-    };
-    match attempt(domain, options, &watch, false) {
-        Ok(Some(axis)) => Ok(axis),
-        // A ring hides between two empty disks: look at every piece then.
-        Ok(None) | Err(EngineError::Internal { .. }) if loops => {
-            attempt(domain, options, &watch, true)?.ok_or(overlooked)
-        }
-        Ok(None) => Err(overlooked),
-        Err(error) => Err(error),
+    let mut care = Care::Quick;
+    loop {
+        let error = match attempt(domain, options, &watch, care) {
+            Ok(Some(axis)) => return Ok(axis),
+            // A ring that hides between two empty disks governs nothing.
+            Ok(None) => EngineError::Internal {
+                stage: "counting rings",
+                place: domain.edges().first().map_or(Point::default(), |e| e.start),
+            },
+            Err(error) => error,
+        };
+        care = care.after(&error).ok_or(error)?;
     }
 }
 
-/// The axis; `None` if a hole was overlooked, which cannot be where every piece of a path is searched
-/// for whole rings.
+/// The axis; `None` if a hole was overlooked.
 fn attempt(
     domain: &Domain,
     options: &Options<'_>,
     watch: &Watch<'_>,
-    careful: bool,
+    care: Care,
 ) -> Result<Option<MedialAxis>, EngineError> {
     let threads = options.threads.get().min(MOST_THREADS);
-    let shared = Shared::new(domain, polygons(domain)?, options.alone_below, threads, careful);
+    let shared = Shared::new(domain, polygons(domain)?, options.alone_below, threads, care);
     let mut workers: Vec<Worker<'_, '_>> = (0..threads)
         .map(|number| Worker::new(&shared, number as u32, watch.with(&shared.pool.stop)))
         .collect();
@@ -146,7 +143,7 @@ impl<'a> Shared<'a> {
         polygons: Vec<Range<usize>>,
         alone_below: usize,
         threads: usize,
-        careful: bool,
+        care: Care,
     ) -> Self {
         let (mut large, mut chunks, mut order) = (Vec::new(), Vec::new(), Vec::new());
         let mut room = 0;
@@ -173,7 +170,7 @@ impl<'a> Shared<'a> {
             tasks.extend(large.seeds.all().rev().map(|seed| Task::Seed { polygon, seed }));
         }
         let pool = Pool::new(tasks, threads);
-        Self { domain, careful, large, chunks, order, pool, n_given: AtomicU32::new(0) }
+        Self { domain, care, large, chunks, order, pool, n_given: AtomicU32::new(0) }
     }
 }
 

@@ -4,7 +4,7 @@ use std::sync::atomic::Ordering;
 use super::super::finish::Traced;
 use super::super::hand::{Arrival, Hand, Openings, from_least, openings, path};
 use super::super::search::{Found, Index, Search, Start};
-use super::super::tracer::Tracer;
+use super::super::tracer::{Care, Tracer, most_keypoints};
 use super::meetings::{Arrived, Gap, Place};
 use super::{Large, Shared};
 use crate::axis::Path;
@@ -101,6 +101,8 @@ pub(super) struct Worker<'s, 'a> {
     blocks: Vec<Block>,
     /// Paths to trace before handing on again.
     pause: u32,
+    /// More keypoints than there can be.
+    most: usize,
 }
 
 impl<'s, 'a> Worker<'s, 'a> {
@@ -114,6 +116,7 @@ impl<'s, 'a> Worker<'s, 'a> {
             tasks: Vec::new(),
             blocks: Vec::new(),
             pause: 0,
+            most: most_keypoints(shared.domain.edges().len()),
         }
     }
 
@@ -162,7 +165,8 @@ impl<'s, 'a> Worker<'s, 'a> {
             let (domain, large) = (self.shared.domain, self.large(polygon));
             let index = large.index.get_or_init(|| Index::new(domain, large.walks.clone()));
             let mut search = Search::over(domain, index.clone(), self.hand.watch.clone());
-            search.careful = self.shared.careful;
+            search.careful = self.shared.care > Care::Quick;
+            self.hand.single = self.shared.care == Care::Single;
             self.hand.search = Some(search);
         }
     }
@@ -249,10 +253,7 @@ impl<'s, 'a> Worker<'s, 'a> {
         let large = self.large(polygon);
         let end = loop {
             let broken = EngineError::Internal { stage: "following a path", place: start.centre };
-            let [_, n_paths] = self.ends();
-            if n_paths - self.blocks.last().map_or(0, |b| b.paths.start) > self.longest() {
-                return Err(broken);
-            }
+            self.count(start)?;
             let arrival = self.hand.follow(from, right, left, start)?;
             let last = path(arrival.from, ELSEWHERE, arrival.right, arrival.left);
             let (disk, triple, contacts, fixed) = match arrival.found {
@@ -301,9 +302,13 @@ impl<'s, 'a> Worker<'s, 'a> {
         Ok(())
     }
 
-    /// Paths in one path with transitions, at most.
-    fn longest(&self) -> u32 {
-        8 * self.shared.domain.edges().len() as u32
+    /// Fails where more was traced than there can be.
+    fn count(&self, near: Start) -> Result<(), EngineError> {
+        if self.hand.traced.keypoints.len() > self.most {
+            let place = near.centre;
+            return Err(EngineError::Internal { stage: "counting keypoints", place });
+        }
+        Ok(())
     }
 
     /// Ends the current block with its last path and the transitions before it.
@@ -372,6 +377,7 @@ impl<'s, 'a> Worker<'s, 'a> {
                 }
             };
             self.hand.traced.paths.push(path(from, to, right, left));
+            self.count(start)?;
             self.hand_on(polygon);
         }
         self.end_beyond();
