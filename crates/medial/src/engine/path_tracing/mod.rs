@@ -18,8 +18,11 @@
 //! # Departures
 //! - Decisions are exact: doubles propose a disk, a certificate or exact arithmetic decides
 //!   whether it is empty, what touches it and in which zone.
+//! - The paper looks for every transition; here a chain of them is proved by the empty disk at its
+//!   end (`chain.rs`).
 //! - The paper checks the end of a path only; a whole ring between two empty disks would be lost.
-//!   Here an index over one corner of each hole is asked what lies between the two.
+//!   Here every ring must have been met in the end; if not, the polygon is traced again, and an index
+//!   over one corner of each hole is asked what lies between the disks of each piece.
 //! - Contacts that tie are collected at once, so no path has length zero.
 //! - Where no half-line bounds a path [JPV, Fig. 12] a growing probe finds the third governor.
 
