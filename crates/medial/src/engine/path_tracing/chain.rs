@@ -25,7 +25,7 @@ use super::front::Front;
 use super::rings::{Link, Round};
 use super::search::{Found, Gap, Proposal, SLACK, Search, Start, contact_behind, rounded};
 use super::verify::{Verdict, Verify, cuts_clearly};
-use crate::domain::{Corner, Edge, Site};
+use crate::domain::{Corner, Domain, Edge, Site};
 use crate::geom::{Point, TouchingDisk, Unsure};
 
 /// Half an ulp of 1.
@@ -59,6 +59,8 @@ pub(super) struct Passed {
     /// All governors, counterclockwise; the last one repeated if there are three.
     pub contacts: [Site; 4],
     pub n_contacts: u8,
+    /// Whether the disk is fixed by its governors, and not by the way it was found.
+    pub fixed: bool,
 }
 
 /// What happens next on a path.
@@ -424,23 +426,17 @@ impl Search<'_> {
 
     /// Takes note of a transition and gives the governors of the path beyond it.
     fn pass(&mut self, r: Site, l: Site, disk: TouchingDisk, site: Site) -> (Site, Site) {
-        let (contacts, n_contacts, disk, beyond) = match self.tie.take() {
+        let (contacts, n_contacts, own, beyond) = match self.tie.take() {
             Some((new_r, new_l)) => {
-                let disk = self.facing(&[r, new_r], &[new_l, l]).unwrap_or(disk);
-                ([r, new_r, new_l, l], 4, disk, (new_r, new_l))
+                let contacts = [r, new_r, new_l, l];
+                (contacts, 4, facing(self.domain, &contacts), (new_r, new_l))
             }
-            None if follows(self.domain, r, site) => ([r, site, l, l], 3, disk, (site, l)),
-            None => ([r, site, l, l], 3, disk, (r, site)),
+            None if follows(self.domain, r, site) => ([r, site, l, l], 3, Some(disk), (site, l)),
+            None => ([r, site, l, l], 3, Some(disk), (r, site)),
         };
-        self.passed.push(Passed { right: r, left: l, disk, contacts, n_contacts });
+        let (disk, fixed) = (own.unwrap_or(disk), own.is_some());
+        self.passed.push(Passed { right: r, left: l, disk, contacts, n_contacts, fixed });
         beyond
-    }
-
-    /// The disk of two runs of two sites that face each other: the same from either side.
-    fn facing(&self, one: &[Site; 2], other: &[Site; 2]) -> Option<TouchingDisk> {
-        let (run, third) = if one[0] < other[0] { (one, other[0]) } else { (other, one[0]) };
-        let governors = self.domain.governors([run[0], run[1], third]);
-        TouchingDisk::touching(&governors)
     }
 
     /// Looks into ever larger disks before an end that is far away or not known, and proposes what
@@ -608,6 +604,22 @@ impl Search<'_> {
         });
         !rings.any(self.domain, links)
     }
+}
+
+/// The disk of two runs of two governors that face each other, if these four are: the same from
+/// whichever side it was found.
+pub(super) fn facing(domain: &Domain, list: &[Site]) -> Option<TouchingDisk> {
+    let &[a, b, c, d] = list else { return None };
+    let run = |p, q| follows(domain, p, q);
+    let (one, other) = if run(a, b) && run(c, d) {
+        ([a, b], [c, d])
+    } else if run(b, c) && run(d, a) {
+        ([b, c], [d, a])
+    } else {
+        return None;
+    };
+    let (run, third) = if one[0] < other[0] { (one, other[0]) } else { (other, one[0]) };
+    TouchingDisk::touching(&domain.governors([run[0], run[1], third]))
 }
 
 /// The turn of a corner's spoke from the start of a path to a disk, the bound on its error, and whether

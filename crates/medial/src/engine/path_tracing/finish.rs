@@ -140,7 +140,8 @@ impl Traced {
         let least = (0..list.len()).min_by_key(|&k| list[k]).unwrap_or(0);
         sorted.rotate_left(least);
         let [a, b, c, _] = passed.contacts;
-        let keypoint = self.add_disk(Some(&passed.disk), &passed.disk, [a, b, c], sorted);
+        let fixed = passed.fixed.then_some(passed.disk);
+        let keypoint = self.add_disk(fixed.as_ref(), &passed.disk, [a, b, c], sorted);
         self.keypoints[keypoint as usize].kind = KeypointKind::Transition;
         keypoint
     }

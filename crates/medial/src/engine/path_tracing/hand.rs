@@ -1,6 +1,6 @@
 use smallvec::SmallVec;
 
-use super::chain::Passed;
+use super::chain::{Passed, facing};
 use super::contacts::{Contacts, follows};
 use super::finish::Traced;
 use super::search::{Found, Search, Start};
@@ -89,7 +89,7 @@ impl<'a> Hand<'a> {
         let own = match *list {
             _ if fixed => Some(*disk),
             [a, b, c] => TouchingDisk::touching(&self.domain.governors([a, b, c])),
-            _ => None,
+            _ => facing(self.domain, list),
         };
         self.traced.add_disk(own.as_ref(), disk, triple, list)
     }
