@@ -289,7 +289,7 @@ impl Search<'_> {
         side: f64,
     ) -> Result<Reach, Unsure> {
         // A proposal will be looked into, so its order needs no proof.
-        let bound = if disk.bound.is_finite() { disk.bound } else { SLACK * disk.radius };
+        let bound = error_of(disk);
         let along = |edge: &Edge, p: Point| {
             let a = p - disk.origin;
             let q = disk.centre - a;
@@ -330,8 +330,7 @@ impl Search<'_> {
         }
         let step = disk.centre + (disk.origin - gap.start.centre);
         let size = step.x.abs() + step.y.abs() + gap.start.radius + disk.radius;
-        let bound = if disk.bound.is_finite() { disk.bound } else { SLACK * disk.radius };
-        side * edge.direction.dot(step) >= -(bound + gap.start.doubt + 16.0 * U * size)
+        side * edge.direction.dot(step) >= -(error_of(disk) + gap.start.doubt + 16.0 * U * size)
     }
 
     /// Whether the spoke of a corner turns on the way to a disk as it must, by less than half a turn:
@@ -545,12 +544,7 @@ impl Search<'_> {
                 }
                 Verdict::OffEdge => {
                     self.banned.push(end.site);
-                    match self.beside(&gap, end.site) {
-                        Some(e) => end = e,
-                        None => {
-                            return None;
-                        }
-                    }
+                    end = self.beside(&gap, end.site)?;
                 }
                 Verdict::Earlier(site) if self.may_be_third(&gap, site) => {
                     let smaller = self.exact(&gap.triple(site))?;
@@ -588,12 +582,7 @@ impl Search<'_> {
     /// Whether no ring can lie in the pocket of the path passed and one more piece.
     fn is_open(&self, r: Site, l: Site, anchor: Start, end: Round) -> bool {
         let Some(rings) = self.rings.as_ref().filter(|_| self.careful) else { return true };
-        let first = Round {
-            centre: anchor.centre,
-            off: Point::default(),
-            radius: anchor.radius,
-            doubt: anchor.doubt,
-        };
+        let first = Round::start(&anchor);
         let passed = &self.passed;
         let start = move |k: usize| if k == 0 { first } else { Round::disk(&passed[k - 1].disk) };
         let links = (0..=passed.len()).map(move |k| match passed.get(k) {
@@ -622,13 +611,17 @@ pub(super) fn facing(domain: &Domain, list: &[Site]) -> Option<TouchingDisk> {
     TouchingDisk::touching(&domain.governors([run[0], run[1], third]))
 }
 
+/// Bound on the error of a disk; for a proposal, which will be looked into, what it may be off.
+fn error_of(disk: &TouchingDisk) -> f64 {
+    if disk.bound.is_finite() { disk.bound } else { SLACK * disk.radius }
+}
+
 /// The turn of a corner's spoke from the start of a path to a disk, the bound on its error, and whether
 /// both spokes point to one side; negative where it turns as it must on this side of the path.
 fn spokes(gap: &Gap, corner: Point, disk: &TouchingDisk, side: f64) -> (f64, f64, f64) {
     let from = gap.start.centre - corner;
     let to = disk.centre + (disk.origin - corner);
     let sizes = from.x.abs() + from.y.abs() + to.x.abs() + to.y.abs();
-    let bound = if disk.bound.is_finite() { disk.bound } else { SLACK * disk.radius };
-    let doubt = gap.start.doubt + bound + 8.0 * U * sizes;
+    let doubt = gap.start.doubt + error_of(disk) + 8.0 * U * sizes;
     (side * from.cross(to), 2.0 * doubt * sizes, from.dot(to))
 }

@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use super::chain::Passed;
+use super::hand::from_least;
 use super::numbers::Numbers;
 use super::positions::position;
 use super::search::Start;
@@ -135,13 +136,9 @@ impl Traced {
     /// Adds a transition that was passed on a path.
     pub fn add_transition(&mut self, passed: &Passed) -> u32 {
         let list = &passed.contacts[..usize::from(passed.n_contacts)];
-        let mut sorted = passed.contacts;
-        let sorted = &mut sorted[..list.len()];
-        let least = (0..list.len()).min_by_key(|&k| list[k]).unwrap_or(0);
-        sorted.rotate_left(least);
         let [a, b, c, _] = passed.contacts;
         let fixed = passed.fixed.then_some(passed.disk);
-        let keypoint = self.add_disk(fixed.as_ref(), &passed.disk, [a, b, c], sorted);
+        let keypoint = self.add_disk(fixed.as_ref(), &passed.disk, [a, b, c], &from_least(list));
         self.keypoints[keypoint as usize].kind = KeypointKind::Transition;
         keypoint
     }

@@ -35,13 +35,7 @@ impl Front {
     /// Whether an edge may be met.
     #[inline]
     pub fn holds(&self, edge: u32) -> bool {
-        if edge < self.walk.0 || edge >= self.walk.1 {
-            true
-        } else if self.first <= self.last {
-            self.first <= edge && edge <= self.last
-        } else {
-            self.first <= edge || edge <= self.last
-        }
+        !self.hidden().holds(edge)
     }
 
     /// The edges that cannot be met.

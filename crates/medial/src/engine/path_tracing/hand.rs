@@ -51,10 +51,6 @@ impl<'a> Hand<'a> {
         let broken = EngineError::Internal { stage: "preparing the search", place: start.centre };
         let search = self.search.as_mut().ok_or(broken)?;
         search.mend_tree();
-        // No domain has so many keypoints: something goes round for ever.
-        if self.traced.keypoints.len() > 8 * self.domain.edges().len() + 64 {
-            return Err(EngineError::Internal { stage: "counting keypoints", place: start.centre });
-        }
         let chased = if self.single { None } else { search.chase(right, left, start) };
         let Some(found) = chased else {
             let found = search.find(right, left, start)?;

@@ -5,7 +5,7 @@
 
 use std::ops::Range;
 
-use super::search::{Found, Gap};
+use super::search::{Found, Gap, Start};
 use crate::domain::{Domain, Site};
 use crate::geom::{BoundsTree, Governor, Point, Rect, TouchingDisk, Visitor};
 
@@ -53,12 +53,7 @@ impl HiddenRings {
             Found::Corner(edge) => Round::corner(domain.edge(*edge).start),
             Found::Disk { disk, .. } => Round::disk(disk),
         };
-        let start = Round {
-            centre: gap.start.centre,
-            off: Point::default(),
-            radius: gap.start.radius,
-            doubt: gap.start.doubt,
-        };
+        let start = Round::start(&gap.start);
         let link = Link { right: gap.right, left: gap.left, start, end };
         let mut query = Query {
             rings: self,
@@ -76,12 +71,9 @@ impl HiddenRings {
         let walk = |s: Site| domain.edge(s.index()).walk;
         let mut own = None;
         let mut bounds = Rect::EMPTY;
-        let mut margin: f64 = 0.0;
         for link in links.clone() {
             own = Some((walk(link.right), walk(link.left)));
-            let pocket = Pocket::new(domain, &link);
-            bounds = bounds.union(pocket.bounds);
-            margin = margin.max(pocket.margin);
+            bounds = bounds.union(Pocket::new(domain, &link).bounds);
         }
         let Some((right, left)) = own else { return false };
         let mut near = Near { bounds, found: Vec::new() };
@@ -122,6 +114,11 @@ pub(super) struct Round {
 }
 
 impl Round {
+    pub fn start(start: &Start) -> Self {
+        let Start { centre, radius, doubt, .. } = *start;
+        Self { centre, off: Point::default(), radius, doubt }
+    }
+
     pub fn corner(at: Point) -> Self {
         Self { centre: at, off: Point::default(), radius: 0.0, doubt: 0.0 }
     }

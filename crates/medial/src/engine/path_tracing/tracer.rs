@@ -182,10 +182,8 @@ impl<'a> Tracer<'a> {
         let Hand { domain, watch, .. } = &self.hand;
         let all = &domain.walks()[walks.clone()];
         let loops = all.iter().any(|w| w.hole);
-        self.gaps = loops.then(|| {
-            let n_edges: u32 = all.iter().map(|w| w.len).sum();
-            Gaps::new(2 * all[0].first, 2 * n_edges)
-        });
+        let n_edges: u32 = all.iter().map(|w| w.len).sum();
+        self.gaps = loops.then(|| Gaps::new(2 * all[0].first, 2 * n_edges));
         self.seeds.extend(walks.clone().rev().filter_map(|walk| seed(domain, walk)));
         self.met.clear();
         if loops {
@@ -193,7 +191,6 @@ impl<'a> Tracer<'a> {
             self.met.extend(all.iter().map(|w| !w.hole));
         }
         self.first_walk = walks.start as u32;
-        let n_edges: u32 = all.iter().map(|w| w.len).sum();
         self.most = most_keypoints(n_edges as usize);
         let mut search = Search::new(domain, walks, watch.clone());
         search.careful = self.care > Care::Quick;

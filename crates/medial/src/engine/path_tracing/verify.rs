@@ -1,8 +1,8 @@
 use std::cmp::Ordering;
 
-use super::chain::Passed;
 use smallvec::SmallVec;
 
+use super::chain::Passed;
 use super::contacts::{self, Contacts};
 use super::front::scope;
 use super::search::{Gap, Proposal, SLACK, Search, Start};
@@ -334,21 +334,26 @@ impl<'s, 'a> Verify<'s, 'a> {
     }
 }
 
-/// Whether an edge, seen from its front, clearly cuts a disk.
+/// Whether an edge clearly cuts a disk, by more than what merely touches can be off.
 pub(super) fn cuts_clearly(disk: &TouchingDisk, a: Point, b: Point, edge: &Edge) -> bool {
-    let (a, b) = (a - disk.origin, b - disk.origin);
-    let q = disk.centre - a;
+    clear_cut(disk, a, b, edge).is_some()
+}
+
+/// Which part of an edge is nearest to the centre, if it clearly cuts the disk: its start if negative,
+/// its end if positive, or the edge itself.
+fn clear_cut(disk: &TouchingDisk, a: Point, b: Point, edge: &Edge) -> Option<i8> {
+    let q = disk.centre - (a - disk.origin);
     let x = edge.direction.dot(q);
-    let clear = disk.radius * (1.0 - 1e-9);
-    let distance2 = if x <= 0.0 {
-        q.norm2()
+    let clear = disk.radius * (1.0 - SLACK);
+    let (distance2, near) = if x <= 0.0 {
+        (q.norm2(), -1)
     } else if x >= edge.length {
-        (disk.centre - b).norm2()
+        ((disk.centre - (b - disk.origin)).norm2(), 1)
     } else {
         let h = edge.direction.cross(q);
-        h * h
+        (h * h, 0)
     };
-    distance2 < clear * clear
+    (distance2 < clear * clear).then_some(near)
 }
 
 impl Look for Verify<'_, '_> {
@@ -367,30 +372,20 @@ impl Look for Verify<'_, '_> {
         }
         let record = domain.edge(edge);
         let d = self.disk;
-        let a = record.start - d.origin;
-        let q = d.centre - a;
-        let x = record.direction.dot(q);
         if self.hunting {
-            // A share of the radius keeps what merely touches from being proposed.
-            let clear = d.radius * (1.0 - 1e-9);
             let next = record.next;
             let own = |s: Site| !s.is_edge() && (s.index() == edge || s.index() == next);
-            if own(gap.right) || own(gap.left) {
-                return;
-            }
-            let (distance2, near) = if x <= 0.0 {
-                (q.norm2(), -1)
-            } else if x >= record.length {
-                ((d.centre - (domain.end(edge) - d.origin)).norm2(), 1)
-            } else {
-                let h = record.direction.cross(q);
-                (h * h, 0)
-            };
-            if distance2 < clear * clear {
+            if !own(gap.right)
+                && !own(gap.left)
+                && let Some(near) = clear_cut(&d, record.start, domain.end(edge), record)
+            {
                 self.cuts(edge, near);
             }
             return;
         }
+        let a = record.start - d.origin;
+        let q = d.centre - a;
+        let x = record.direction.dot(q);
         if site == self.triple[1] {
             return;
         }
