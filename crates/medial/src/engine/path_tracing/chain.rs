@@ -190,22 +190,42 @@ impl Search<'_> {
     }
 
     fn next_elements(&self, gap: &Gap, disk: &TouchingDisk) -> Option<Proposal> {
-        let mut nearest = gap.course(self.domain).position(disk);
-        let mut best = None;
+        let mut disk = *disk;
+        let mut best: Option<Proposal> = None;
         let (mut ahead, mut behind) = (gap.right, gap.left);
         for _ in 0..FEW {
             (ahead, behind) = (self.domain.ahead(ahead), self.domain.behind(behind));
             for site in [ahead, behind] {
+                // What is met before a disk of the path cuts that disk.
+                if !self.reaches_into(site, &disk) {
+                    continue;
+                }
+                let nearest =
+                    best.map_or_else(|| gap.course(self.domain).position(&disk), |b| b.position);
                 if let Some(p) = self.propose(gap, site)
                     && p.position < nearest * (1.0 - SLACK)
                     && p.position > 0.0
                 {
-                    nearest = p.position;
+                    disk = p.disk;
                     best = Some(p);
                 }
             }
         }
         best
+    }
+
+    /// Whether a corner, or an edge between its ends, reaches into a disk.
+    #[inline]
+    fn reaches_into(&self, site: Site, disk: &TouchingDisk) -> bool {
+        let edge = self.domain.edge(site.index());
+        let q = disk.centre - (edge.start - disk.origin);
+        let limit = disk.radius * disk.radius;
+        if !site.is_edge() {
+            return q.norm2() < limit;
+        }
+        let along = edge.direction.dot(q);
+        let across = edge.direction.cross(q);
+        across * across < limit && along > 0.0 && along < edge.length
     }
 
     fn ending_right(&self, r: Site) -> Option<Ending> {
