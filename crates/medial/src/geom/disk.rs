@@ -271,7 +271,7 @@ impl TouchingDisk {
     ///
     /// # Errors
     /// [`Unsure`] where doubles cannot tell.
-    #[inline]
+    #[inline(always)]
     pub fn on_normal(
         v: Point,
         direction: Point,

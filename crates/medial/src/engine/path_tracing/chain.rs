@@ -228,6 +228,7 @@ impl Search<'_> {
         across * across < limit && along > 0.0 && along < edge.length
     }
 
+    #[inline(always)]
     fn ending_right(&self, r: Site) -> Option<Ending> {
         let k = r.index();
         if !r.is_edge() {
@@ -248,6 +249,7 @@ impl Search<'_> {
         }
     }
 
+    #[inline(always)]
     fn ending_left(&self, l: Site) -> Option<Ending> {
         let k = l.index();
         let edge = self.domain.edge(k);
@@ -268,6 +270,7 @@ impl Search<'_> {
     }
 
     /// The disk in which a governor leaves while `other` stays, if it ever leaves.
+    #[inline(always)]
     fn leave(&self, normal: Normal, other: Site) -> Result<Option<Event>, Unsure> {
         let direction = self.domain.edge(normal.edge).direction;
         let other = self.domain.governor(other);
@@ -277,6 +280,7 @@ impl Search<'_> {
 
     /// A proposal for the disk that meets the edge beyond a convex corner at an end of the right
     /// governor, or of the left one, if it lies ahead.
+    #[inline(always)]
     fn meet(&mut self, gap: &Gap, edge: u32, on_right: bool) -> Option<Event> {
         let beyond = self.domain.edge(edge);
         let (v, incoming, outgoing, other) = if on_right {
@@ -301,6 +305,7 @@ impl Search<'_> {
 
     /// Where a certified disk ahead lies to the normal on which a governor leaves, on the right of the
     /// path if `side` is 1 and on its left if it is -1.
+    #[inline(always)]
     fn reach(
         &self,
         gap: &Gap,
@@ -342,6 +347,7 @@ impl Search<'_> {
     }
 
     /// Whether the footpoint of a governor moves on to a disk as it must.
+    #[inline(always)]
     fn advances(&self, gap: &Gap, disk: &TouchingDisk, side: f64) -> bool {
         let governor = if side > 0.0 { gap.right } else { gap.left };
         let edge = self.domain.edge(governor.index());
@@ -404,6 +410,7 @@ impl Search<'_> {
     }
 
     /// Which of two governors leaves first.
+    #[inline(always)]
     fn next_leave(
         &mut self,
         gap: &Gap,
