@@ -121,11 +121,24 @@ impl TouchingDisk {
     #[inline]
     #[must_use]
     pub fn guess(governors: &[Governor; 3], near: Point) -> Option<Self> {
-        Self::form(corners_first(governors), near)
+        let g = corners_first(governors);
+        let mut origin = g[0].anchor();
+        if let Governor::Edge { .. } = g[0] {
+            let ends = g.iter().flat_map(|g| [g.anchor(), g.end()]);
+            let mut best = f64::INFINITY;
+            for end in ends {
+                let distance = (end - near).norm2();
+                if distance < best {
+                    (best, origin) = (distance, end);
+                }
+            }
+        }
+        Self::form(g, origin)
     }
 
-    /// The closed form, for governors with corners first.
-    fn form(g: [&Governor; 3], near: Point) -> Option<Self> {
+    /// The closed form, for governors with corners first; for three edges relative to an end of one.
+    #[inline]
+    fn form(g: [&Governor; 3], origin: Point) -> Option<Self> {
         use Governor::{Corner, Edge};
         let (origin, centre, radius) = match g {
             [&Corner(p), &Corner(q), &Corner(s)] => {
@@ -168,7 +181,7 @@ impl TouchingDisk {
                 &Edge { start: a, end: b, direction: t },
                 &Edge { start: c, end: d, direction: u },
                 &Edge { start: e, end: f, direction: v },
-            ] => three_edges([a, b, c, d, e, f], [t, u, v], near)?,
+            ] => three_edges([a, b, c, d, e, f], [t, u, v], origin)?,
             _ => return None,
         };
         let sound = centre.x.is_finite() && centre.y.is_finite() && radius.is_finite();
@@ -348,7 +361,7 @@ impl TouchingDisk {
         let mut disk = *self;
         let mut step = f64::INFINITY;
         for _ in 0..4 {
-            let [(n1, p1, _), (n2, p2, _), (n3, p3, _)] = disk.residuals(governors)?;
+            let [(n1, p1, _), (n2, p2, _), (n3, p3, _)] = disk.residuals(governors);
             let (b, e) = (n2 - n1, n3 - n1);
             let d = b.cross(e);
             if d.is_nan() || d <= 12.0 * U {
@@ -368,7 +381,7 @@ impl TouchingDisk {
                 break;
             }
         }
-        let [(n1, p1, e1), (n2, p2, e2), (n3, p3, e3)] = disk.residuals(governors)?;
+        let [(n1, p1, e1), (n2, p2, e2), (n3, p3, e3)] = disk.residuals(governors);
         let d = (n2 - n1).cross(n3 - n1) - 12.0 * U;
         if d.is_nan() || d <= 0.0 || disk.radius.is_nan() || disk.radius <= 0.0 {
             return None;
@@ -390,24 +403,24 @@ impl TouchingDisk {
 
     /// Normal, residual `distance - r` and its rounding error for each governor.
     #[inline]
-    fn residuals(&self, governors: [&Governor; 3]) -> Option<[(Point, f64, f64); 3]> {
-        let of = |g: &Governor| {
-            let (n, distance, error) = self.distance(g)?;
-            Some((n, distance - self.radius, error))
-        };
-        Some([of(governors[0])?, of(governors[1])?, of(governors[2])?])
+    fn residuals(&self, governors: [&Governor; 3]) -> [(Point, f64, f64); 3] {
+        governors.map(|g| {
+            let (n, distance, error) = self.distance(g);
+            (n, distance - self.radius, error)
+        })
     }
 
-    /// Unit normal towards the centre, distance and error bound of the residual.
+    /// Unit normal towards the centre, distance and error bound of the residual; not a number in
+    /// a corner.
     #[inline]
-    fn distance(&self, g: &Governor) -> Option<(Point, f64, f64)> {
+    fn distance(&self, g: &Governor) -> (Point, f64, f64) {
         match *g {
             Governor::Corner(p) => {
                 let a = p - self.origin;
                 let q = self.centre - a;
                 let distance = q.norm();
                 let error = U * (4.0 * distance + a.x.abs() + a.y.abs() + self.radius);
-                (distance > 0.0).then(|| (q * (1.0 / distance), distance, error))
+                (q * (1.0 / distance), distance, error)
             }
             Governor::Edge { start, end, direction: u } => {
                 // From the nearer end, where rounding is least.
@@ -420,7 +433,7 @@ impl TouchingDisk {
                         + (a.y * u.x).abs()
                         + (a.x * u.y).abs()
                         + self.radius);
-                Some((u.perp(), left - right, error))
+                (u.perp(), left - right, error)
             }
         }
     }
@@ -440,7 +453,7 @@ impl TouchingDisk {
         let mut step = f64::INFINITY;
         let (g, rho, error) = loop {
             disk.centre = normal * disk.radius;
-            let (n, distance, error) = disk.distance(other)?;
+            let (n, distance, error) = disk.distance(other);
             let g = 1.0 - n.dot(normal);
             if g.is_nan() || g <= 16.0 * U {
                 return None;
@@ -517,16 +530,8 @@ fn two_corners_and_edge(
     Some((p, t * x + t.perp() * (r - hp), r))
 }
 
-fn three_edges(ends: [Point; 6], t: [Point; 3], near: Point) -> Option<(Point, Point, f64)> {
-    let mut origin = ends[0];
-    let mut best = f64::INFINITY;
-    for &end in &ends {
-        let distance = (end - near).norm2();
-        if distance < best {
-            best = distance;
-            origin = end;
-        }
-    }
+#[inline]
+fn three_edges(ends: [Point; 6], t: [Point; 3], origin: Point) -> Option<(Point, Point, f64)> {
     let h: [f64; 3] = std::array::from_fn(|k| height(origin, ends[2 * k], ends[2 * k + 1], t[k]));
     let c = [t[0].cross(t[1]), t[1].cross(t[2]), t[2].cross(t[0])];
     let cos = [t[0].dot(t[1]), t[1].dot(t[2]), t[2].dot(t[0])];
