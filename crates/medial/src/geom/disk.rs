@@ -404,10 +404,11 @@ impl TouchingDisk {
     /// Normal, residual `distance - r` and its rounding error for each governor.
     #[inline]
     fn residuals(&self, governors: [&Governor; 3]) -> [(Point, f64, f64); 3] {
-        governors.map(|g| {
+        let of = |g: &Governor| {
             let (n, distance, error) = self.distance(g);
             (n, distance - self.radius, error)
-        })
+        };
+        [of(governors[0]), of(governors[1]), of(governors[2])]
     }
 
     /// Unit normal towards the centre, distance and error bound of the residual; not a number in

@@ -479,7 +479,7 @@ impl Search<'_> {
             if self.watch.is_over() {
                 return None;
             }
-            let Some(disk) = gap.course(self.domain).disk_at(reach) else { break };
+            let Some(disk) = gap.disk_at(self.domain, reach) else { break };
             if end.is_some_and(|e| disk.radius * LEAP > e.disk.radius) {
                 break;
             }

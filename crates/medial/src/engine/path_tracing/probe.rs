@@ -90,7 +90,7 @@ impl Search<'_> {
             let at_limit = limit.filter(|l| l.1 <= reach);
             let position = at_limit.map_or(reach, |l| l.1);
             let disk =
-                at_limit.map_or_else(|| gap.course(self.domain).disk_at(position), |l| Some(l.0));
+                at_limit.map_or_else(|| gap.disk_at(self.domain, position), |l| Some(l.0));
             match self.look(gap, disk) {
                 Look::Hit(hit) => return Some(hit),
                 Look::Clear if blocked == f64::INFINITY => clear = position,
@@ -107,7 +107,7 @@ impl Search<'_> {
             && blocked - clear > SMALLEST_STEP * (blocked + gap.start.radius)
         {
             let position = (clear + blocked) / 2.0;
-            match self.look(gap, gap.course(self.domain).disk_at(position)) {
+            match self.look(gap, gap.disk_at(self.domain, position)) {
                 Look::Hit(hit) => return Some(hit),
                 Look::Clear => clear = position,
                 Look::Blocked => blocked = position,

@@ -84,9 +84,15 @@ impl Gap {
     #[inline]
     pub fn course(&self, domain: &Domain) -> &Course {
         self.course.get_or_init(|| {
-            let [right, left] = [self.right, self.left].map(|s| domain.governor(s));
-            Course::new(&right, &left, self.start.centre, self.start.radius)
+            let (right, left) = (domain.governor(self.right), domain.governor(self.left));
+            Course::new(&right, &left, self.start.centre)
         })
+    }
+
+    /// The disk of the path at a position, if the bisector reaches it.
+    pub fn disk_at(&self, domain: &Domain, position: f64) -> Option<TouchingDisk> {
+        let (right, left) = (domain.governor(self.right), domain.governor(self.left));
+        self.course(domain).disk_at(&right, &left, self.start.radius, position)
     }
 }
 
