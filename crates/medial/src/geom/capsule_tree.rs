@@ -20,6 +20,9 @@ use super::{Point, Rect, hilbert};
 /// Children of a node, and edges of a leaf.
 const FAN: usize = 8;
 
+/// Edges of a leaf, at most.
+pub const LEAF: usize = FAN;
+
 /// Levels of a tree over 2^32 edges, at most.
 const MOST_LEVELS: usize = 12;
 
@@ -68,6 +71,9 @@ pub trait Look {
     fn scope(&self) -> &Scope;
     /// Takes one edge that may lie within.
     fn edge(&mut self, edge: u32);
+    /// Is told when all edges of a leaf are taken.
+    #[inline]
+    fn leaf(&mut self) {}
 }
 
 /// All points within `width` of the segment from `centre - half` to `centre + half`.
@@ -260,6 +266,7 @@ impl CapsuleTree {
                         }
                     }
                 }
+                look.leaf();
             } else {
                 let (start, count) = self.levels[level - 1];
                 let node = &self.nodes[(start + number) as usize];

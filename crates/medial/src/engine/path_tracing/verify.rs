@@ -9,7 +9,7 @@ use super::search::{Gap, Proposal, SLACK, Search, Start};
 use super::touch::Touch;
 use crate::domain::{Corner, Edge, Site};
 use crate::geom::predicates::ExactDisk;
-use crate::geom::{Hidden, Look, Point, Scope, TouchingDisk};
+use crate::geom::{Hidden, LEAF, Look, Point, Scope, TouchingDisk};
 
 const U: f64 = f64::EPSILON / 2.0;
 
@@ -26,6 +26,16 @@ pub(super) enum Verdict {
     Cut(Vec<Site>),
     /// The third governor is touched beyond its end.
     OffEdge,
+}
+
+/// An edge that cuts a disk.
+#[derive(Clone, Copy, Debug, Default)]
+struct Cutting {
+    edge: u32,
+    /// Which part is nearest: its start if negative, its end if positive, or the edge itself.
+    near: i8,
+    /// About where on the path it is met, from 0 at the start to 1 at the disk.
+    share: f64,
 }
 
 /// One walk through the tree with one disk.
@@ -53,6 +63,9 @@ pub(super) struct Verify<'s, 'a> {
     floating: bool,
     scope: Scope,
     cut: SmallVec<[u32; 8]>,
+    /// Edges of the present leaf that cut, and which part of each is nearest.
+    cutting: [Cutting; LEAF],
+    n_cutting: usize,
     doubtful: SmallVec<[u32; 8]>,
 }
 
@@ -83,6 +96,8 @@ impl<'s, 'a> Verify<'s, 'a> {
             floating,
             scope: scope(anchor.centre, anchor.radius, anchor.doubt, &disk),
             cut: SmallVec::new(),
+            cutting: [Cutting::default(); LEAF],
+            n_cutting: 0,
             doubtful: SmallVec::new(),
         }
     }
@@ -138,10 +153,18 @@ impl<'s, 'a> Verify<'s, 'a> {
     /// Takes note of an edge that cuts the disk looked into; `near` tells which part of it is nearest:
     /// its start if negative, its end if positive, or the edge itself.
     fn cuts(&mut self, edge: u32, near: i8) {
-        self.cut.push(edge);
         if !self.floating {
+            self.cut.push(edge);
             return;
         }
+        self.cutting[self.n_cutting] = Cutting { edge, near, share: 0.0 };
+        self.n_cutting += 1;
+    }
+
+    /// Proposes an end with an edge that cuts the disk looked into, and looks into that one from now
+    /// on; tells whether it does.
+    fn shrink(&mut self, edge: u32, near: i8) -> bool {
+        self.cut.push(edge);
         let (search, link) = (self.search, self.link);
         let went_back = link > 0 && self.go_back(edge);
         let gap = self.earlier.as_ref().unwrap_or(self.gap);
@@ -161,7 +184,7 @@ impl<'s, 'a> Verify<'s, 'a> {
                 self.best = Some(p);
                 self.hunting = true;
                 self.look_into(p.disk);
-                return;
+                return true;
             }
         }
         if went_back {
@@ -169,6 +192,52 @@ impl<'s, 'a> Verify<'s, 'a> {
             self.link = link;
             self.earlier = (link < self.passed.len()).then(|| self.piece(link));
         }
+        false
+    }
+
+    /// Takes the edges of a leaf that cut, the one first that looks as if it were met first.
+    #[inline(never)]
+    fn shrink_by_leaf(&mut self) {
+        let mut cutting = self.cutting;
+        let cutting = &mut cutting[..std::mem::take(&mut self.n_cutting)];
+        if cutting.len() > 1 {
+            for cut in &mut *cutting {
+                cut.share = self.share(cut);
+            }
+            cutting.sort_unstable_by(|a, b| a.share.total_cmp(&b.share));
+        }
+        let domain = self.search.domain;
+        let mut shrunk = false;
+        for &mut Cutting { edge, near, .. } in cutting {
+            if !shrunk {
+                shrunk = self.shrink(edge, near);
+                continue;
+            }
+            let record = domain.edge(edge);
+            if let Some(near) = clear_cut(&self.disk, record.start, domain.end(edge), record) {
+                self.shrink(edge, near);
+            }
+        }
+    }
+
+    /// About the share of the way to the disk looked into after which an edge that cuts it is met: that
+    /// of the disk through the edge's nearest point in the pencil of the first disk and this one.
+    fn share(&self, &Cutting { edge, near, .. }: &Cutting) -> f64 {
+        let domain = self.search.domain;
+        let record = domain.edge(edge);
+        let point = match near {
+            ..0 => record.start,
+            0 => {
+                let way = self.disk.centre - (record.start - self.disk.origin);
+                record.start + record.direction * record.direction.dot(way)
+            }
+            1.. => domain.end(edge),
+        };
+        let start = self.anchor;
+        let outside = (point - start.centre).norm2() - start.radius * start.radius;
+        let inside = self.disk.radius * self.disk.radius
+            - (self.disk.centre - (point - self.disk.origin)).norm2();
+        outside / (outside + inside)
     }
 
     /// A piece of the path that was passed.
@@ -357,6 +426,13 @@ fn clear_cut(disk: &TouchingDisk, a: Point, b: Point, edge: &Edge) -> Option<i8>
 }
 
 impl Look for Verify<'_, '_> {
+    #[inline]
+    fn leaf(&mut self) {
+        if self.n_cutting > 0 {
+            self.shrink_by_leaf();
+        }
+    }
+
     #[inline]
     fn scope(&self) -> &Scope {
         &self.scope
