@@ -5,6 +5,7 @@ mod capsule_tree;
 mod disk;
 mod double;
 mod hilbert;
+mod lanes;
 mod orient;
 mod point;
 pub mod predicates;

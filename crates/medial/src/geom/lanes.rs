@@ -1,0 +1,365 @@
+//! Eight capsules side by side, as numbers of 32 bits that are tested together.
+//!
+//! # Contract
+//! A test leaves out no capsule of which anything may be within the scope: all is rounded outwards.
+//!
+//! # Method
+//! Plain loops over eight lanes, which compilers turn into vector instructions; on x86-64 the same
+//! loops are compiled once more for AVX2, and taken where the machine has it. Nothing is contracted,
+//! so both give the same bits.
+//!
+//! # Departures
+//! None.
+
+use super::{Point, capsule_tree::Scope};
+
+/// Capsules side by side.
+pub(super) const FAN: usize = 8;
+
+/// Share of the lengths involved by which a test in 32 bits may be wrong, with room to spare.
+const ROUNDING: f32 = 1.0 / (1 << 19) as f32;
+
+/// The same, of the distance of a disk that is far larger than what it is tested against.
+const FAR_ROUNDING: f64 = 1.0 / (1_u64 << 44) as f64;
+
+/// Radius of a disk, in sizes of what it is tested against, from which numbers of 32 bits are too
+/// coarse for coordinates relative to its centre.
+const FAR_OUT: f32 = 256.0;
+
+/// Length, of a tree of size one, below which squares in 32 bits vanish.
+pub(super) const VANISHING: f32 = 1e-18;
+
+/// One number to a capsule.
+type Eight = [f32; FAN];
+
+/// All points within `width` of the segment from `centre - half` to `centre + half`.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Capsule {
+    pub centre: Point,
+    pub half: [f32; 2],
+    pub width: f32,
+}
+
+/// Segments, one to a lane, relative to an origin.
+#[derive(Clone, Debug)]
+pub(super) struct Lanes {
+    origin: Point,
+    /// No lane reaches farther from the origin than this.
+    extent: f32,
+    x: Eight,
+    y: Eight,
+    half_x: Eight,
+    half_y: Eight,
+}
+
+/// Capsules, one to a lane.
+#[derive(Clone, Debug)]
+pub(super) struct Node {
+    pub lanes: Lanes,
+    pub width: Eight,
+}
+
+/// A scope as the tests need it, in lengths of a tree.
+pub(super) struct Query {
+    centre: Point,
+    reach: f64,
+    /// How far the disk reaches from its centre, with its share of the rounding.
+    limit: f32,
+    slack: f32,
+    normal: Point,
+    /// Least product with the normal in the half-plane; minus infinity without one.
+    level: f64,
+}
+
+/// Witness that the machine has AVX2.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Wide(());
+
+impl Wide {
+    /// The witness, if it is so.
+    pub fn detect() -> Option<Self> {
+        #[cfg(target_arch = "x86_64")]
+        if std::arch::is_x86_feature_detected!("avx2") {
+            return Some(Self(()));
+        }
+        None
+    }
+}
+
+impl Query {
+    #[inline]
+    pub fn new(scope: &Scope, scale: f64, slack: f32) -> Self {
+        let reach = scope.reach * scale;
+        let normal = scope.normal;
+        let border = scope.border * scale;
+        let halved = normal.x != 0.0 || normal.y != 0.0;
+        let level = if halved {
+            // What the origin of the lanes adds to the rounding is in the slack.
+            normal.dot(border) - 8.0 * f64::EPSILON * (border.x.abs() + border.y.abs())
+        } else {
+            f64::NEG_INFINITY
+        };
+        let limit = reach as f32 * (1.0 + ROUNDING) + slack;
+        Self { centre: scope.centre * scale, reach, limit, slack, normal, level }
+    }
+}
+
+impl Lanes {
+    /// Segments between two ends each, given relative to an origin.
+    #[inline]
+    pub fn between(origin: Point, ends: &[(Point, Point); FAN]) -> Self {
+        let (mut x, mut y) = ([0.0; FAN], [0.0; FAN]);
+        let (mut half_x, mut half_y) = ([0.0; FAN], [0.0; FAN]);
+        for (k, &(a, b)) in ends.iter().enumerate() {
+            let (middle, half) = ((a + b) * 0.5, (b - a) * 0.5);
+            (x[k], y[k]) = (middle.x as f32, middle.y as f32);
+            (half_x[k], half_y[k]) = (half.x as f32, half.y as f32);
+        }
+        Self { origin, extent: 0.0, x, y, half_x, half_y }.measured(&[0.0; FAN])
+    }
+
+    /// The same with what the lanes reach to.
+    #[inline]
+    fn measured(mut self, width: &Eight) -> Self {
+        let far = each(|k| {
+            (self.x[k].abs() + self.half_x[k].abs())
+                + (self.y[k].abs() + self.half_y[k].abs())
+                + width[k]
+        });
+        self.extent = largest(&far) * (1.0 + ROUNDING);
+        self
+    }
+
+    /// A capsule around all, along their chord or the longer side of their box.
+    pub fn capsule(&self, width: &Eight) -> Capsule {
+        let last = FAN - 1;
+        let chord_x = (self.x[last] + self.half_x[last]) - (self.x[0] - self.half_x[0]);
+        let chord_y = (self.y[last] + self.half_y[last]) - (self.y[0] - self.half_y[0]);
+        let length = (chord_x * chord_x + chord_y * chord_y).sqrt();
+        let mut axis = [1.0, 0.0];
+        let mut frame = self.framed(axis, width);
+        if length > VANISHING {
+            let along = [chord_x / length, chord_y / length];
+            let other = self.framed(along, width);
+            if other.half[0] + other.half[1] < frame.half[0] + frame.half[1] {
+                (axis, frame) = (along, other);
+            }
+        }
+        let Frame { middle: [x, y], half: [long, wide] } = frame;
+        let offset = [axis[0] * x - axis[1] * y, axis[1] * x + axis[0] * y];
+        let (axis, reach) =
+            if long >= wide { (axis, long - wide) } else { ([-axis[1], axis[0]], wide - long) };
+        // Farthest of the ends from the segment.
+        let far = each(|k| {
+            let (x, y) = (self.x[k] - offset[0], self.y[k] - offset[1]);
+            let (hx, hy) = (self.half_x[k], self.half_y[k]);
+            let (along, across) = (axis[0] * x + axis[1] * y, axis[0] * y - axis[1] * x);
+            let (run, rise) = (axis[0] * hx + axis[1] * hy, axis[0] * hy - axis[1] * hx);
+            let beyond = larger((along.abs() + run.abs()) - reach, 0.0);
+            // Both ends at once: the farther one along need not be the farther one across.
+            let aside = larger((across + rise).abs(), (across - rise).abs());
+            (beyond * beyond + aside * aside).sqrt() + width[k]
+        });
+        let width = largest(&far) + ROUNDING * self.extent + VANISHING;
+        Capsule {
+            centre: self.origin + Point::new(offset[0].into(), offset[1].into()),
+            half: [axis[0] * reach, axis[1] * reach],
+            width,
+        }
+    }
+
+    /// The box of all along an axis.
+    #[inline]
+    fn framed(&self, [ux, uy]: [f32; 2], width: &Eight) -> Frame {
+        let side = |ux: f32, uy: f32| {
+            let at = each(|k| ux * self.x[k] + uy * self.y[k]);
+            let half = each(|k| (ux * self.half_x[k] + uy * self.half_y[k]).abs() + width[k]);
+            let high = largest(&each(|k| at[k] + half[k]));
+            let low = -largest(&each(|k| half[k] - at[k]));
+            ((low + high) * 0.5, (high - low) * 0.5)
+        };
+        let ((x, long), (y, wide)) = (side(ux, uy), side(-uy, ux));
+        Frame { middle: [x, y], half: [long, wide] }
+    }
+
+    /// A bit for each lane, widened by that much, that may be within the scope.
+    #[inline]
+    pub fn within(&self, query: &Query, width: &Eight, wide: Option<Wide>) -> u32 {
+        #[cfg(target_arch = "x86_64")]
+        if wide.is_some() {
+            return self.within_wide_checked(query, width);
+        }
+        self.within_plain(query, width)
+    }
+
+    #[cfg(target_arch = "x86_64")]
+    #[inline]
+    #[allow(unsafe_code, reason = "only a machine can tell what instructions it has")]
+    fn within_wide_checked(&self, query: &Query, width: &Eight) -> u32 {
+        // SAFETY: there is a witness that the machine has AVX2.
+        unsafe { self.within_wide(query, width) }
+    }
+
+    #[cfg(target_arch = "x86_64")]
+    #[target_feature(enable = "avx2")]
+    fn within_wide(&self, query: &Query, width: &Eight) -> u32 {
+        use std::arch::x86_64::{
+            _CMP_GT_OQ, _CMP_LT_OQ, _mm256_cmp_ps, _mm256_movemask_ps, _mm256_or_ps,
+            _mm256_set1_ps, _mm256_setr_ps,
+        };
+        let all = |v: Eight| _mm256_setr_ps(v[0], v[1], v[2], v[3], v[4], v[5], v[6], v[7]);
+        let Measures { square, limit, at, least } = self.measures(query, width);
+        let outside = _mm256_cmp_ps::<_CMP_GT_OQ>(all(square), all(limit));
+        let behind = _mm256_cmp_ps::<_CMP_LT_OQ>(all(at), _mm256_set1_ps(least));
+        !_mm256_movemask_ps(_mm256_or_ps(outside, behind)) as u32
+    }
+
+    #[inline(never)]
+    fn within_plain(&self, query: &Query, width: &Eight) -> u32 {
+        let Measures { square, limit, at, least } = self.measures(query, width);
+        let mut mask = 0;
+        for k in 0..FAN {
+            mask |= u32::from(!(square[k] > limit[k]) & !(at[k] < least)) << k;
+        }
+        mask
+    }
+
+    #[inline(always)]
+    fn measures(&self, query: &Query, width: &Eight) -> Measures {
+        let extent = self.extent;
+        let level = query.level - query.normal.dot(self.origin);
+        let least = level as f32;
+        let least = least - ROUNDING * (least.abs() + extent) - query.slack;
+        let (nx, ny) = (query.normal.x as f32, query.normal.y as f32);
+        let at = each(|k| {
+            let half = (nx * self.half_x[k] + ny * self.half_y[k]).abs();
+            (nx * self.x[k] + ny * self.y[k]) + half + width[k] * (1.0 + ROUNDING)
+        });
+        if query.limit > FAR_OUT * extent
+            && let Some((square, limit)) = self.far(query, width)
+        {
+            return Measures { square, limit, at, least };
+        }
+        let p = query.centre - self.origin;
+        let (px, py) = (p.x as f32, p.y as f32);
+        let limit = query.limit + ROUNDING * extent;
+        let square = each(|k| {
+            let (dx, dy) = (px - self.x[k], py - self.y[k]);
+            let (hx, hy) = (self.half_x[k], self.half_y[k]);
+            let t = (dx * hx + dy * hy) / larger(hx * hx + hy * hy, f32::MIN_POSITIVE);
+            let t = larger(smaller(t, 1.0), -1.0);
+            let (ex, ey) = (dx - t * hx, dy - t * hy);
+            ex * ex + ey * ey
+        });
+        let limit = each(|k| {
+            let limit = limit + width[k];
+            limit * limit
+        });
+        Measures { square, limit, at, least }
+    }
+
+    /// What to compare where the disk is large and far: seen from the lanes it is nearly a half-plane.
+    #[inline(never)]
+    fn far(&self, query: &Query, width: &Eight) -> Option<(Eight, Eight)> {
+        let extent = self.extent;
+        let p = query.centre - self.origin;
+        let distance = p.norm();
+        if distance <= 4.0 * f64::from(extent) {
+            return None;
+        }
+        // A point q is within the disk if n·q - q·q/2d is at least (d² - r²)/2d, for the distance d
+        // and the direction n of the centre. All of this is as small as the lanes are.
+        let inverse = 1.0 / distance;
+        let (nx, ny) = ((p.x * inverse) as f32, (p.y * inverse) as f32);
+        let reach = query.reach;
+        let level = (distance - reach) * (distance + reach) * (0.5 * inverse);
+        let margin = f64::from(ROUNDING * extent + query.slack) + FAR_ROUNDING * (distance + reach);
+        let level = (level - margin) as f32;
+        let (d, bend) = (distance as f32, (0.5 * inverse) as f32);
+        let widen = (reach * inverse) as f32 * (1.0 + ROUNDING);
+        let value = each(|k| {
+            let (cx, cy) = (self.x[k], self.y[k]);
+            let (hx, hy) = (self.half_x[k], self.half_y[k]);
+            let square = larger(hx * hx + hy * hy, f32::MIN_POSITIVE);
+            let t = (d * (nx * hx + ny * hy) - (cx * hx + cy * hy)) / square;
+            let t = larger(smaller(t, 1.0), -1.0);
+            let (qx, qy) = (cx + t * hx, cy + t * hy);
+            let w = width[k];
+            nx * qx + ny * qy - bend * (qx * qx + qy * qy) + w * (widen + bend * w)
+        });
+        Some(([level; FAN], value))
+    }
+}
+
+/// What tells of each lane whether it is within: not if `square` exceeds `limit`, nor if `at` is less
+/// than `least`.
+struct Measures {
+    square: Eight,
+    limit: Eight,
+    at: Eight,
+    least: f32,
+}
+
+impl Node {
+    /// Capsules side by side; there are one to eight.
+    pub fn new(group: &[Capsule]) -> Self {
+        let last = group.len() - 1;
+        let origin = group[last / 2].centre;
+        let mut lanes = Lanes {
+            origin,
+            extent: 0.0,
+            x: [0.0; FAN],
+            y: [0.0; FAN],
+            half_x: [0.0; FAN],
+            half_y: [0.0; FAN],
+        };
+        let mut width = [0.0; FAN];
+        for k in 0..FAN {
+            // Lanes to spare repeat the last one.
+            let capsule = &group[k.min(last)];
+            let at = capsule.centre - origin;
+            (lanes.x[k], lanes.y[k]) = (at.x as f32, at.y as f32);
+            [lanes.half_x[k], lanes.half_y[k]] = capsule.half;
+            width[k] = capsule.width;
+        }
+        Self { lanes: lanes.measured(&width), width }
+    }
+
+    /// A capsule around all.
+    pub fn capsule(&self) -> Capsule {
+        self.lanes.capsule(&self.width)
+    }
+}
+
+/// A box: its middle and half its sides.
+struct Frame {
+    middle: [f32; 2],
+    half: [f32; 2],
+}
+
+#[inline(always)]
+fn each(lane: impl Fn(usize) -> f32) -> Eight {
+    let mut all = [0.0; FAN];
+    for (k, slot) in all.iter_mut().enumerate() {
+        *slot = lane(k);
+    }
+    all
+}
+
+/// The larger number; the second one if they have no order.
+#[inline(always)]
+fn larger(a: f32, b: f32) -> f32 {
+    if a > b { a } else { b }
+}
+
+/// The smaller number; the second one if they have no order.
+#[inline(always)]
+fn smaller(a: f32, b: f32) -> f32 {
+    if a < b { a } else { b }
+}
+
+#[inline(always)]
+fn largest(v: &Eight) -> f32 {
+    let four = [larger(v[0], v[4]), larger(v[1], v[5]), larger(v[2], v[6]), larger(v[3], v[7])];
+    larger(larger(four[0], four[2]), larger(four[1], four[3]))
+}
