@@ -163,11 +163,6 @@ impl CapsuleTree {
         self.bounds
     }
 
-    #[inline]
-    fn query(&self, scope: &Scope) -> Query {
-        Query::new(scope, self.scale, self.slack)
-    }
-
     /// Shows every edge that may be within the scope of `look` and is not hidden, in a fixed order;
     /// gives the number of nodes it went through.
     #[inline]
@@ -192,7 +187,7 @@ impl CapsuleTree {
             }
             _ => {}
         }
-        let mut query = self.query(look.scope());
+        let mut aim = Aim::new(self, look.scope());
         // Waiting children of a node: number of the first, a bit for each, and their level.
         let mut waiting = [(0_u32, 0_u8, 0_u8); MOST_LEVELS];
         let mut depth = 0_usize;
@@ -204,19 +199,15 @@ impl CapsuleTree {
             let mut mask = runs.among(level, first);
             if level == 0 {
                 let leaf = &self.leaves[number as usize];
-                mask &= leaf.within(&query, &[0.0; FAN], self.wide);
+                mask &= leaf.within(&aim.query, &[0.0; FAN], self.wide);
                 if mask != 0 {
                     self.show(first, mask, &hidden, look);
                     look.leaf();
-                    if depth == 0 {
-                        return entered;
-                    }
-                    // What is looked for may have shrunk.
-                    query = self.query(look.scope());
+                    aim.follow(self, look.scope());
                 }
             } else {
                 let node = &self.nodes[(self.levels[level as usize - 1] + number) as usize];
-                mask &= node.lanes.within(&query, &node.width, self.wide);
+                mask &= node.lanes.within(&aim.query, &node.width, self.wide);
                 if mask != 0 {
                     waiting[depth % MOST_LEVELS] = (first, mask as u8, level as u8);
                     depth += 1;
@@ -255,6 +246,29 @@ impl CapsuleTree {
     }
 }
 
+/// What is looked for now.
+struct Aim {
+    query: Query,
+    centre: Point,
+    reach: f64,
+}
+
+impl Aim {
+    #[inline]
+    fn new(tree: &CapsuleTree, scope: &Scope) -> Self {
+        let query = Query::new(scope, tree.scale, tree.slack);
+        Self { query, centre: scope.centre, reach: scope.reach }
+    }
+
+    /// Looks for what is looked for after edges were shown.
+    #[inline]
+    fn follow(&mut self, tree: &CapsuleTree, scope: &Scope) {
+        if scope.reach != self.reach || scope.centre != self.centre {
+            *self = Self::new(tree, scope);
+        }
+    }
+}
+
 /// The runs of edges that a visit shows, each by its first and its last edge, relative to the tree.
 struct Shown {
     runs: [(u32, u32); 3],
@@ -269,6 +283,9 @@ impl Shown {
             let relative = |edge: u32| edge.saturating_sub(base).min(n_edges);
             (relative(first), relative(end))
         });
+        if a.0 == 0 && a.1 < b.0 && b.1 == n_edges {
+            return Self { runs: [(a.1, b.0 - 1), (0, 0), (0, 0)], count: 1 };
+        }
         let (a, b) = if a.0 <= b.0 { (a, b) } else { (b, a) };
         let mut shown = Self { runs: [(0, 0); 3], count: 0 };
         let mut from = 0;
@@ -282,15 +299,21 @@ impl Shown {
         shown
     }
 
-    /// A bit for each of eight nodes, from `first`, of a level below which anything is shown.
+    /// A bit for each of eight nodes, from `first`, of a level below which anything is shown; below all
+    /// eight together there is something.
     #[inline]
     fn among(&self, level: u32, first: u32) -> u32 {
+        let part = |low: u32, high: u32| (0xff << low) & (0xff >> (7 - high.min(7)));
+        let [(low, high), ..] = self.runs;
+        let shift = 3 * level;
+        if self.count == 1 {
+            return part((low >> shift).saturating_sub(first), (high >> shift) - first);
+        }
         let mut mask = 0;
         for &(low, high) in &self.runs[..self.count] {
-            let low = (low >> (3 * level)).saturating_sub(first);
-            let high = high >> (3 * level);
+            let (low, high) = ((low >> shift).saturating_sub(first), high >> shift);
             if low < FAN as u32 && high >= first {
-                mask |= (0xff << low) & (0xff >> (7 - (high - first).min(7)));
+                mask |= part(low, high - first);
             }
         }
         mask

@@ -67,6 +67,8 @@ pub(super) struct Query {
     limit: f32,
     slack: f32,
     normal: Point,
+    /// The same in 32 bits.
+    direction: [f32; 2],
     /// Least product with the normal in the half-plane; minus infinity without one.
     level: f64,
 }
@@ -100,7 +102,8 @@ impl Query {
             f64::NEG_INFINITY
         };
         let limit = reach as f32 * (1.0 + ROUNDING) + slack;
-        Self { centre: scope.centre * scale, reach, limit, slack, normal, level }
+        let direction = [normal.x as f32, normal.y as f32];
+        Self { centre: scope.centre * scale, reach, limit, slack, normal, direction, level }
     }
 }
 
@@ -160,7 +163,7 @@ impl Lanes {
             let aside = larger((across + rise).abs(), (across - rise).abs());
             (beyond * beyond + aside * aside).sqrt() + width[k]
         });
-        let width = largest(&far) + ROUNDING * self.extent + VANISHING;
+        let width = largest(&far) * (1.0 + ROUNDING) + ROUNDING * self.extent + VANISHING;
         Capsule {
             centre: self.origin + Point::new(offset[0].into(), offset[1].into()),
             half: [axis[0] * reach, axis[1] * reach],
@@ -186,63 +189,54 @@ impl Lanes {
     #[inline]
     pub fn within(&self, query: &Query, width: &Eight, wide: Option<Wide>) -> u32 {
         #[cfg(target_arch = "x86_64")]
-        if wide.is_some() {
-            return self.within_wide_checked(query, width);
+        if let Some(wide) = wide {
+            return wide.within(self, query, width);
         }
+        let _ = wide;
         self.within_plain(query, width)
-    }
-
-    #[cfg(target_arch = "x86_64")]
-    #[inline]
-    #[allow(unsafe_code, reason = "only a machine can tell what instructions it has")]
-    fn within_wide_checked(&self, query: &Query, width: &Eight) -> u32 {
-        // SAFETY: there is a witness that the machine has AVX2.
-        unsafe { self.within_wide(query, width) }
-    }
-
-    #[cfg(target_arch = "x86_64")]
-    #[target_feature(enable = "avx2")]
-    fn within_wide(&self, query: &Query, width: &Eight) -> u32 {
-        use std::arch::x86_64::{
-            _CMP_GT_OQ, _CMP_LT_OQ, _mm256_cmp_ps, _mm256_movemask_ps, _mm256_or_ps,
-            _mm256_set1_ps, _mm256_setr_ps,
-        };
-        let all = |v: Eight| _mm256_setr_ps(v[0], v[1], v[2], v[3], v[4], v[5], v[6], v[7]);
-        let Measures { square, limit, at, least } = self.measures(query, width);
-        let outside = _mm256_cmp_ps::<_CMP_GT_OQ>(all(square), all(limit));
-        let behind = _mm256_cmp_ps::<_CMP_LT_OQ>(all(at), _mm256_set1_ps(least));
-        !_mm256_movemask_ps(_mm256_or_ps(outside, behind)) as u32
     }
 
     #[inline(never)]
     fn within_plain(&self, query: &Query, width: &Eight) -> u32 {
-        let Measures { square, limit, at, least } = self.measures(query, width);
+        let measures = if self.is_small(query) {
+            self.measures_far(query, width)
+        } else {
+            self.measures_near(query, width)
+        };
+        let (at, least) = self.heights(query, width);
         let mut mask = 0;
         for k in 0..FAN {
-            mask |= u32::from(!(square[k] > limit[k]) & !(at[k] < least)) << k;
+            let outside = measures.square[k] > measures.limit[k];
+            mask |= u32::from(!outside & !(at[k] < least)) << k;
         }
         mask
     }
 
+    /// Whether the disk is so much larger that it may have to be tested as if from far.
     #[inline(always)]
-    fn measures(&self, query: &Query, width: &Eight) -> Measures {
-        let extent = self.extent;
+    fn is_small(&self, query: &Query) -> bool {
+        query.limit > FAR_OUT * self.extent
+    }
+
+    /// How far each lane reaches beyond the border of the half-plane, and how far it has to.
+    #[inline(always)]
+    fn heights(&self, query: &Query, width: &Eight) -> (Eight, f32) {
         let level = query.level - query.normal.dot(self.origin);
         let least = level as f32;
-        let least = least - ROUNDING * (least.abs() + extent) - query.slack;
-        let (nx, ny) = (query.normal.x as f32, query.normal.y as f32);
+        let least = least - ROUNDING * (least.abs() + self.extent) - query.slack;
+        let [nx, ny] = query.direction;
         let at = each(|k| {
             let half = (nx * self.half_x[k] + ny * self.half_y[k]).abs();
-            (nx * self.x[k] + ny * self.y[k]) + half + width[k] * (1.0 + ROUNDING)
+            (nx * self.x[k] + ny * self.y[k]) + half + width[k]
         });
-        if query.limit > FAR_OUT * extent
-            && let Some((square, limit)) = self.far(query, width)
-        {
-            return Measures { square, limit, at, least };
-        }
+        (at, least)
+    }
+
+    #[inline(always)]
+    fn measures_near(&self, query: &Query, width: &Eight) -> Measures {
         let p = query.centre - self.origin;
         let (px, py) = (p.x as f32, p.y as f32);
-        let limit = query.limit + ROUNDING * extent;
+        let limit = query.limit + ROUNDING * self.extent;
         let square = each(|k| {
             let (dx, dy) = (px - self.x[k], py - self.y[k]);
             let (hx, hy) = (self.half_x[k], self.half_y[k]);
@@ -255,17 +249,17 @@ impl Lanes {
             let limit = limit + width[k];
             limit * limit
         });
-        Measures { square, limit, at, least }
+        Measures { square, limit }
     }
 
-    /// What to compare where the disk is large and far: seen from the lanes it is nearly a half-plane.
-    #[inline(never)]
-    fn far(&self, query: &Query, width: &Eight) -> Option<(Eight, Eight)> {
+    /// The same where the disk is large: if it is far as well it is nearly a half-plane.
+    #[inline(always)]
+    fn measures_far(&self, query: &Query, width: &Eight) -> Measures {
         let extent = self.extent;
         let p = query.centre - self.origin;
         let distance = p.norm();
         if distance <= 4.0 * f64::from(extent) {
-            return None;
+            return self.measures_near(query, width);
         }
         // A point q is within the disk if n·q - q·q/2d is at least (d² - r²)/2d, for the distance d
         // and the direction n of the centre. All of this is as small as the lanes are.
@@ -277,7 +271,7 @@ impl Lanes {
         let level = (level - margin) as f32;
         let (d, bend) = (distance as f32, (0.5 * inverse) as f32);
         let widen = (reach * inverse) as f32 * (1.0 + ROUNDING);
-        let value = each(|k| {
+        let limit = each(|k| {
             let (cx, cy) = (self.x[k], self.y[k]);
             let (hx, hy) = (self.half_x[k], self.half_y[k]);
             let square = larger(hx * hx + hy * hy, f32::MIN_POSITIVE);
@@ -287,17 +281,55 @@ impl Lanes {
             let w = width[k];
             nx * qx + ny * qy - bend * (qx * qx + qy * qy) + w * (widen + bend * w)
         });
-        Some(([level; FAN], value))
+        Measures { square: [level; FAN], limit }
     }
 }
 
-/// What tells of each lane whether it is within: not if `square` exceeds `limit`, nor if `at` is less
-/// than `least`.
+/// A lane is outside the disk if `square` exceeds `limit`.
 struct Measures {
     square: Eight,
     limit: Eight,
-    at: Eight,
-    least: f32,
+}
+
+#[cfg(target_arch = "x86_64")]
+impl Wide {
+    #[inline]
+    #[allow(unsafe_code, reason = "only the machine itself tells what instructions it has")]
+    fn within(self, lanes: &Lanes, query: &Query, width: &Eight) -> u32 {
+        // SAFETY: `self` is made only where the machine has AVX2.
+        unsafe { within_wide(lanes, query, width) }
+    }
+}
+
+/// [`Lanes::within_plain`] for AVX2.
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2")]
+fn within_wide(lanes: &Lanes, query: &Query, width: &Eight) -> u32 {
+    if lanes.is_small(query) {
+        return far_within_wide(lanes, query, width);
+    }
+    mask_wide(lanes.measures_near(query, width), lanes.heights(query, width))
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2")]
+#[inline(never)]
+fn far_within_wide(lanes: &Lanes, query: &Query, width: &Eight) -> u32 {
+    mask_wide(lanes.measures_far(query, width), lanes.heights(query, width))
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2")]
+#[inline]
+fn mask_wide(Measures { square, limit }: Measures, (at, least): (Eight, f32)) -> u32 {
+    use std::arch::x86_64::{
+        _CMP_GT_OQ, _CMP_LT_OQ, _mm256_cmp_ps, _mm256_movemask_ps, _mm256_or_ps, _mm256_set1_ps,
+        _mm256_setr_ps,
+    };
+    let all = |v: Eight| _mm256_setr_ps(v[0], v[1], v[2], v[3], v[4], v[5], v[6], v[7]);
+    let outside = _mm256_cmp_ps::<_CMP_GT_OQ>(all(square), all(limit));
+    let behind = _mm256_cmp_ps::<_CMP_LT_OQ>(all(at), _mm256_set1_ps(least));
+    !_mm256_movemask_ps(_mm256_or_ps(outside, behind)) as u32
 }
 
 impl Node {
