@@ -11,6 +11,8 @@
 //!    where the boundary is smooth or straight, whatever its direction; for one edge it is the edge.
 //! 3. The eight children of a node are kept side by side as numbers of 32 bits relative to the node's
 //!    own origin, and are tested together.
+//! 4. A visit takes the children from both ends first, and then by halves: so a visitor that looks for
+//!    less the more it has met soon does, whichever way the boundary leads.
 //!
 //! # Departures
 //! None.
@@ -23,6 +25,24 @@ pub const LEAF: usize = FAN;
 
 /// Levels of nodes in a tree over 2^32 edges, at most, rounded up to a power of two.
 const MOST_LEVELS: usize = 16;
+
+/// The order in which children are visited.
+const ORDER: [u8; FAN] = [7, 0, 4, 2, 6, 1, 5, 3];
+
+/// The first of some children, given as bits, in that order.
+const NEXT: [u8; 1 << FAN] = {
+    let mut next = [0; 1 << FAN];
+    let mut mask = 1;
+    while mask < next.len() {
+        let mut k = 0;
+        while mask >> ORDER[k] & 1 == 0 {
+            k += 1;
+        }
+        next[mask] = ORDER[k];
+        mask += 1;
+    }
+    next
+};
 
 /// The disk and the half-plane of a visit.
 #[derive(Clone, Copy, Debug)]
@@ -112,7 +132,7 @@ impl CapsuleTree {
         order: Option<Vec<u32>>,
         ends: impl Fn(u32) -> (Point, Point),
     ) -> Self {
-        let bounds = (base..base + n_edges).fold(Rect::EMPTY, |all, k| all.with(ends(k).0));
+        let bounds = box_of((base..base + n_edges).map(|k| ends(k).0));
         let ends = |k: u32| ends(order.as_ref().map_or(base + k, |order| order[k as usize]));
         let size = (bounds.max.x - bounds.min.x).max(bounds.max.y - bounds.min.y);
         let scale = power_of_two_near(size);
@@ -218,9 +238,10 @@ impl CapsuleTree {
                 return entered;
             }
             let (first, mask, above) = &mut waiting[(depth - 1) % MOST_LEVELS];
-            number = *first + mask.trailing_zeros();
+            let child = NEXT[usize::from(*mask)];
+            number = *first + u32::from(child);
             level = u32::from(*above) - 1;
-            *mask &= *mask - 1;
+            *mask &= !(1 << child);
             if *mask == 0 {
                 depth -= 1;
             }
@@ -229,10 +250,12 @@ impl CapsuleTree {
 
     /// Shows some edges of a leaf.
     #[inline]
-    fn show(&self, first: u32, mut mask: u32, hidden: &Hidden, look: &mut impl Look) {
+    fn show(&self, first: u32, mask: u32, hidden: &Hidden, look: &mut impl Look) {
+        let mut mask = mask as u8;
         while mask != 0 {
-            let k = first + mask.trailing_zeros();
-            mask &= mask - 1;
+            let child = NEXT[usize::from(mask)];
+            let k = first + u32::from(child);
+            mask &= !(1 << child);
             match &self.order {
                 None => look.edge(self.base + k),
                 Some(order) => {
@@ -318,6 +341,19 @@ impl Shown {
         }
         mask
     }
+}
+
+/// The box of some points.
+fn box_of(points: impl Iterator<Item = Point>) -> Rect {
+    let Rect { mut min, mut max } = Rect::EMPTY;
+    for p in points {
+        // Not `f64::min`, which spends three instructions on numbers that are none.
+        min.x = if p.x < min.x { p.x } else { min.x };
+        min.y = if p.y < min.y { p.y } else { min.y };
+        max.x = if p.x > max.x { p.x } else { max.x };
+        max.y = if p.y > max.y { p.y } else { max.y };
+    }
+    Rect { min, max }
 }
 
 /// A power of two whose product with `size` is about one.

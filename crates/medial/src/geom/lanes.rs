@@ -111,14 +111,20 @@ impl Lanes {
     /// Segments between two ends each, given relative to an origin.
     #[inline]
     pub fn between(origin: Point, ends: &[(Point, Point); FAN]) -> Self {
-        let (mut x, mut y) = ([0.0; FAN], [0.0; FAN]);
-        let (mut half_x, mut half_y) = ([0.0; FAN], [0.0; FAN]);
+        let [mut ax, mut ay, mut bx, mut by] = [[0.0; FAN]; 4];
         for (k, &(a, b)) in ends.iter().enumerate() {
-            let (middle, half) = ((a + b) * 0.5, (b - a) * 0.5);
-            (x[k], y[k]) = (middle.x as f32, middle.y as f32);
-            (half_x[k], half_y[k]) = (half.x as f32, half.y as f32);
+            (ax[k], ay[k]) = (a.x as f32, a.y as f32);
+            (bx[k], by[k]) = (b.x as f32, b.y as f32);
         }
-        Self { origin, extent: 0.0, x, y, half_x, half_y }.measured(&[0.0; FAN])
+        Self {
+            origin,
+            extent: 0.0,
+            x: each(|k| (ax[k] + bx[k]) * 0.5),
+            y: each(|k| (ay[k] + by[k]) * 0.5),
+            half_x: each(|k| (bx[k] - ax[k]) * 0.5),
+            half_y: each(|k| (by[k] - ay[k]) * 0.5),
+        }
+        .measured(&[0.0; FAN])
     }
 
     /// The same with what the lanes reach to.
