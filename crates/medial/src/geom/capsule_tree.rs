@@ -362,3 +362,141 @@ fn power_of_two_near(size: f64) -> f64 {
     // The largest size is below 2^202, the least above 2^-254.
     f64::from_bits((2046_u64.saturating_sub(exponent)).clamp(1, 2046) << 52)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Notes what it is shown.
+    struct Seen {
+        scope: Scope,
+        edges: Vec<u32>,
+    }
+
+    impl Look for Seen {
+        fn scope(&self) -> &Scope {
+            &self.scope
+        }
+
+        fn edge(&mut self, edge: u32) {
+            self.edges.push(edge);
+        }
+    }
+
+    /// Numbers from zero to one, always the same.
+    fn numbers() -> impl FnMut() -> f64 {
+        let mut state = 88_172_645_463_325_252_u64;
+        move || {
+            state ^= state << 13;
+            state ^= state >> 7;
+            state ^= state << 17;
+            (state >> 11) as f64 / (1_u64 << 53) as f64
+        }
+    }
+
+    /// A closed walk with runs that are straight, smooth, and neither.
+    fn walk(n: usize, origin: Point, size: f64) -> Vec<Point> {
+        let mut number = numbers();
+        let point = |k: usize| {
+            let t = k as f64 / n as f64;
+            let (sin, cos) = (t * std::f64::consts::TAU).sin_cos();
+            let rough = if t < 0.3 { 0.2 * number() } else { 0.0 };
+            let x = if t < 0.7 { cos } else { 3.0 * t - 3.0 };
+            origin + Point::new(x + rough, sin + rough) * size
+        };
+        (0..n).map(point).collect()
+    }
+
+    fn distance(p: Point, a: Point, b: Point) -> f64 {
+        let (way, along) = (p - a, b - a);
+        let t = (way.dot(along) / along.norm2()).clamp(0.0, 1.0);
+        (way - along * t).norm()
+    }
+
+    /// Scopes about a walk: of all sizes, half of them with a half-plane.
+    fn scopes(origin: Point, size: f64) -> Vec<Scope> {
+        let mut number = numbers();
+        let mut scopes = Vec::new();
+        for k in 0..600 {
+            let from = Point::new(4.0 * number() - 2.0, 4.0 * number() - 2.0);
+            let reach = 0.5_f64.powi(k % 20) * 2.0;
+            // Every third is far out, and as large as it must be to come near.
+            let away = if k % 3 == 0 { 10_f64.powi(k % 9) } else { 0.0 };
+            let direction = Point::new(0.6, if k % 2 == 0 { 0.8 } else { -0.8 });
+            let normal = if k % 4 < 2 { direction } else { Point::default() };
+            scopes.push(Scope {
+                centre: origin + (from + direction * away) * size,
+                reach: (reach + away) * size,
+                normal,
+                border: origin + from * (0.5 * size),
+            });
+        }
+        scopes
+    }
+
+    fn shows_what_is_within(origin: Point, size: f64) {
+        for n in [3, 7, 8, 9, 64, 65, 700] {
+            let points = walk(n, origin, size);
+            let ends = |k: u32| (points[k as usize - 5], points[(k as usize - 4) % n]);
+            let trees = [
+                CapsuleTree::new(5, n as u32, ends),
+                CapsuleTree::along_a_curve(5, n as u32, ends),
+            ];
+            let plain = trees.clone().map(|tree| CapsuleTree { wide: None, ..tree });
+            for scope in scopes(origin, size) {
+                let hidden =
+                    Hidden([(5, 5 + n as u32 / 8), (5 + n as u32 / 2, 5 + n as u32 / 4 * 3)]);
+                for (tree, plain_tree) in trees.iter().zip(&plain) {
+                    let mut seen = Seen { scope, edges: Vec::new() };
+                    tree.visit(hidden, &mut seen);
+                    seen.edges.sort_unstable();
+                    assert!(seen.edges.windows(2).all(|w| w[0] < w[1]));
+                    for k in 5..5 + n as u32 {
+                        let (a, b) = ends(k);
+                        let high = |p| scope.normal.dot(p - scope.border);
+                        let within = distance(scope.centre, a, b) <= scope.reach
+                            && high(a).max(high(b)) >= 0.0;
+                        let shown = seen.edges.binary_search(&k).is_ok();
+                        assert!(!shown || !hidden.holds(k));
+                        assert!(shown || hidden.holds(k) || !within, "{n} edges, {k}: {scope:?}");
+                    }
+                    let mut plain = Seen { scope, edges: Vec::new() };
+                    plain_tree.visit(hidden, &mut plain);
+                    plain.edges.sort_unstable();
+                    assert_eq!(plain.edges, seen.edges);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_visit_shows_all_that_is_within_and_not_hidden() {
+        shows_what_is_within(Point::new(0.0, 0.0), 1.0);
+    }
+
+    #[test]
+    fn a_visit_shows_all_that_is_within_far_from_the_origin_at_any_scale() {
+        shows_what_is_within(Point::new(1e9, -3e9), 1e3);
+        shows_what_is_within(Point::new(-7.0, 5.0), 1e-6);
+        shows_what_is_within(Point::new(1e30, 0.0), 1e30);
+    }
+
+    #[test]
+    fn a_small_disk_is_shown_little_of_a_long_walk() {
+        let points = walk(4096, Point::new(0.0, 0.0), 1.0);
+        let ends = |k: u32| (points[k as usize], points[(k as usize + 1) % 4096]);
+        let tree = CapsuleTree::new(0, 4096, ends);
+        // On the smooth part, where edges are about 1/650 long.
+        let scope = Scope {
+            centre: points[2048],
+            reach: 1e-4,
+            normal: Point::default(),
+            border: Point::default(),
+        };
+        let mut seen = Seen { scope, edges: Vec::new() };
+        let entered = tree.visit(Hidden::default(), &mut seen);
+        seen.edges.sort_unstable();
+        assert_eq!(seen.edges, [2047, 2048]);
+        assert!(entered <= 9, "{entered} nodes");
+    }
+}

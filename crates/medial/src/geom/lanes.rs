@@ -210,12 +210,12 @@ impl Lanes {
             self.measures_near(query, width)
         };
         let (at, least) = self.heights(query, width);
-        let mut mask = 0;
-        for k in 0..FAN {
+        let mut out = 0;
+        for (k, at) in at.into_iter().enumerate() {
             let outside = measures.square[k] > measures.limit[k];
-            mask |= u32::from(!outside & !(at[k] < least)) << k;
+            out |= u32::from(outside | (at < least)) << k;
         }
-        mask
+        !out
     }
 
     /// Whether the disk is so much larger that it may have to be tested as if from far.
