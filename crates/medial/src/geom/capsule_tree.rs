@@ -251,9 +251,9 @@ impl CapsuleTree {
     /// Shows some edges of a leaf.
     #[inline]
     fn show(&self, first: u32, mask: u32, hidden: &Hidden, look: &mut impl Look) {
-        let mut mask = mask as u8;
+        let mut mask = mask & 0xff;
         while mask != 0 {
-            let child = NEXT[usize::from(mask)];
+            let child = NEXT[mask as usize & 0xff];
             let k = first + u32::from(child);
             mask &= !(1 << child);
             match &self.order {

@@ -210,12 +210,7 @@ impl Lanes {
             self.measures_near(query, width)
         };
         let (at, least) = self.heights(query, width);
-        let mut out = 0;
-        for (k, at) in at.into_iter().enumerate() {
-            let outside = measures.square[k] > measures.limit[k];
-            out |= u32::from(outside | (at < least)) << k;
-        }
-        !out
+        mask_plain(&measures, &at, least)
     }
 
     /// Whether the disk is so much larger that it may have to be tested as if from far.
@@ -295,6 +290,16 @@ impl Lanes {
 struct Measures {
     square: Eight,
     limit: Eight,
+}
+
+/// A function of its own, for compilers do badly with vectors whose lanes are taken apart.
+#[inline(never)]
+fn mask_plain(measures: &Measures, at: &Eight, least: f32) -> u32 {
+    let bits: [u32; FAN] = std::array::from_fn(|k| {
+        let outside = measures.square[k] > measures.limit[k];
+        if outside | (at[k] < least) { 1 << k } else { 0 }
+    });
+    !bits.into_iter().fold(0, |all, bit| all | bit)
 }
 
 #[cfg(target_arch = "x86_64")]
