@@ -11,8 +11,9 @@
 //!    where the boundary is smooth or straight, whatever its direction; for one edge it is the edge.
 //! 3. The eight children of a node are kept side by side as numbers of 32 bits relative to the node's
 //!    own origin, and are tested together.
-//! 4. A visit takes the children from both ends first, and then by halves: so a visitor that looks for
-//!    less the more it has met soon does, whichever way the boundary leads.
+//! 4. A visit takes the children near what the visitor names first, then those at both ends, then by
+//!    halves: so a visitor that looks for less the more it has met soon does, whichever way the boundary
+//!    leads.
 //!
 //! # Departures
 //! None.
@@ -26,7 +27,7 @@ pub const LEAF: usize = FAN;
 /// Levels of nodes in a tree over 2^32 edges, at most, rounded up to a power of two.
 const MOST_LEVELS: usize = 16;
 
-/// The order in which children are visited.
+/// The order in which children are visited, as far as the visitor has no wish.
 const ORDER: [u8; FAN] = [7, 0, 4, 2, 6, 1, 5, 3];
 
 /// The first of some children, given as bits, in that order.
@@ -74,6 +75,8 @@ impl Hidden {
 pub trait Look {
     /// What is looked for now; it may shrink during a visit.
     fn scope(&self) -> &Scope;
+    /// An edge near which to look first; any will do, only the time it takes depends on it.
+    fn near(&self) -> u32;
     /// Takes one edge that may lie within.
     fn edge(&mut self, edge: u32);
     /// Is told when all edges of a leaf are taken.
@@ -208,6 +211,7 @@ impl CapsuleTree {
             _ => {}
         }
         let mut aim = Aim::new(self, look.scope());
+        let near = look.near().wrapping_sub(self.base);
         // Waiting children of a node: number of the first, a bit for each, and their level.
         let mut waiting = [(0_u32, 0_u8, 0_u8); MOST_LEVELS];
         let mut depth = 0_usize;
@@ -228,9 +232,20 @@ impl CapsuleTree {
             } else {
                 let node = &self.nodes[(self.levels[level as usize - 1] + number) as usize];
                 mask &= node.lanes.within(&aim.query, &node.width, self.wide);
+                mask &= 0xff;
                 if mask != 0 {
-                    waiting[depth % MOST_LEVELS] = (first, mask as u8, level as u8);
-                    depth += 1;
+                    let mut child = (near >> (3 * level)).wrapping_sub(first);
+                    if child >= FAN as u32 || mask >> child & 1 == 0 {
+                        child = NEXT[mask as usize & 0xff].into();
+                    }
+                    mask &= !(1 << child);
+                    if mask != 0 {
+                        waiting[depth % MOST_LEVELS] = (first, mask as u8, level as u8);
+                        depth += 1;
+                    }
+                    number = first + child;
+                    level -= 1;
+                    continue;
                 }
             }
             // Go on with the next waiting child.
@@ -376,6 +391,10 @@ mod tests {
     impl Look for Seen {
         fn scope(&self) -> &Scope {
             &self.scope
+        }
+
+        fn near(&self) -> u32 {
+            6
         }
 
         fn edge(&mut self, edge: u32) {

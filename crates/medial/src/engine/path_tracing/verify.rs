@@ -439,6 +439,11 @@ impl Look for Verify<'_, '_> {
     }
 
     #[inline]
+    fn near(&self) -> u32 {
+        self.gap.left.index()
+    }
+
+    #[inline]
     fn edge(&mut self, edge: u32) {
         let domain = self.search.domain;
         let site = Site::edge(edge);
