@@ -30,9 +30,9 @@ const MOST_LEVELS: usize = 16;
 /// The order in which children are visited, as far as the visitor has no wish.
 const ORDER: [u8; FAN] = [7, 0, 4, 2, 6, 1, 5, 3];
 
-/// The first of some children, given as bits, in that order.
+/// The first of some children, given as bits, in that order; eight if there is none.
 const NEXT: [u8; 1 << FAN] = {
-    let mut next = [0; 1 << FAN];
+    let mut next = [FAN as u8; 1 << FAN];
     let mut mask = 1;
     while mask < next.len() {
         let mut k = 0;
@@ -267,18 +267,21 @@ impl CapsuleTree {
     #[inline]
     fn show(&self, first: u32, mask: u32, hidden: &Hidden, look: &mut impl Look) {
         let mut mask = mask & 0xff;
-        while mask != 0 {
-            let child = NEXT[mask as usize & 0xff];
-            let k = first + u32::from(child);
+        let mut next = || {
+            let child = NEXT[mask as usize];
             mask &= !(1 << child);
-            match &self.order {
-                None => look.edge(self.base + k),
-                Some(order) => {
-                    let edge = order[k as usize];
-                    if !hidden.holds(edge) {
-                        look.edge(edge);
-                    }
+            (child < FAN as u8).then(|| first + u32::from(child))
+        };
+        if let Some(order) = &self.order {
+            while let Some(place) = next() {
+                let edge = order[place as usize];
+                if !hidden.holds(edge) {
+                    look.edge(edge);
                 }
+            }
+        } else {
+            while let Some(place) = next() {
+                look.edge(self.base + place);
             }
         }
     }
