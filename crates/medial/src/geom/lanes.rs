@@ -4,9 +4,9 @@
 //! A test leaves out no capsule of which anything may be within the scope: all is rounded outwards.
 //!
 //! # Method
-//! Plain loops over eight lanes, which compilers turn into vector instructions; on x86-64 the same
-//! loops are compiled once more for AVX2, and taken where the machine has it. Nothing is contracted,
-//! so both give the same bits.
+//! Plain loops over eight lanes, which compilers turn into vector instructions. On x86-64 the test is
+//! written once more for AVX2, and taken where the machine has it: the same operations in the same
+//! order, nothing contracted, so both give the same bits.
 //!
 //! # Departures
 //! None.
@@ -219,18 +219,23 @@ impl Lanes {
         query.limit > FAR_OUT * self.extent
     }
 
-    /// How far each lane reaches beyond the border of the half-plane, and how far it has to.
+    /// How far in the direction of the half-plane a lane has to reach.
     #[inline(always)]
-    fn heights(&self, query: &Query, width: &Eight) -> (Eight, f32) {
+    fn least(&self, query: &Query) -> f32 {
         let level = query.level - query.normal.dot(self.origin);
         let least = level as f32;
-        let least = least - ROUNDING * (least.abs() + self.extent) - query.slack;
+        least - ROUNDING * (least.abs() + self.extent) - query.slack
+    }
+
+    /// How far each lane does, and how far it has to.
+    #[inline(always)]
+    fn heights(&self, query: &Query, width: &Eight) -> (Eight, f32) {
         let [nx, ny] = query.direction;
         let at = each(|k| {
             let half = (nx * self.half_x[k] + ny * self.half_y[k]).abs();
             (nx * self.x[k] + ny * self.y[k]) + half + width[k]
         });
-        (at, least)
+        (at, self.least(query))
     }
 
     #[inline(always)]
@@ -312,34 +317,67 @@ impl Wide {
     }
 }
 
-/// [`Lanes::within_plain`] for AVX2.
+/// [`Lanes::within_plain`] for AVX2, operation for operation: left to compilers, the loops come out well
+/// in one build and full of shuffles in the next.
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2")]
 fn within_wide(lanes: &Lanes, query: &Query, width: &Eight) -> u32 {
+    use std::arch::x86_64::{
+        _mm256_add_ps as add, _mm256_andnot_ps, _mm256_div_ps as div, _mm256_max_ps as max,
+        _mm256_min_ps as min, _mm256_mul_ps as mul, _mm256_set1_ps as same, _mm256_sub_ps as sub,
+    };
     if lanes.is_small(query) {
         return far_within_wide(lanes, query, width);
     }
-    mask_wide(lanes.measures_near(query, width), lanes.heights(query, width))
+    let (x, y) = (eight_wide(&lanes.x), eight_wide(&lanes.y));
+    let (hx, hy) = (eight_wide(&lanes.half_x), eight_wide(&lanes.half_y));
+    let width = eight_wide(width);
+    let p = query.centre - lanes.origin;
+    let (dx, dy) = (sub(same(p.x as f32), x), sub(same(p.y as f32), y));
+    let t = div(
+        add(mul(dx, hx), mul(dy, hy)),
+        max(add(mul(hx, hx), mul(hy, hy)), same(f32::MIN_POSITIVE)),
+    );
+    let t = max(min(t, same(1.0)), same(-1.0));
+    let (ex, ey) = (sub(dx, mul(t, hx)), sub(dy, mul(t, hy)));
+    let square = add(mul(ex, ex), mul(ey, ey));
+    let limit = add(same(query.limit + ROUNDING * lanes.extent), width);
+    let limit = mul(limit, limit);
+    let (nx, ny) = (same(query.direction[0]), same(query.direction[1]));
+    let half = _mm256_andnot_ps(same(-0.0), add(mul(nx, hx), mul(ny, hy)));
+    let at = add(add(add(mul(nx, x), mul(ny, y)), half), width);
+    mask_wide([square, limit], at, lanes.least(query))
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2")]
 #[inline(never)]
 fn far_within_wide(lanes: &Lanes, query: &Query, width: &Eight) -> u32 {
-    mask_wide(lanes.measures_far(query, width), lanes.heights(query, width))
+    let Measures { square, limit } = lanes.measures_far(query, width);
+    let (at, least) = lanes.heights(query, width);
+    mask_wide([eight_wide(&square), eight_wide(&limit)], eight_wide(&at), least)
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2")]
 #[inline]
-fn mask_wide(Measures { square, limit }: Measures, (at, least): (Eight, f32)) -> u32 {
+fn eight_wide(v: &Eight) -> std::arch::x86_64::__m256 {
+    std::arch::x86_64::_mm256_setr_ps(v[0], v[1], v[2], v[3], v[4], v[5], v[6], v[7])
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2")]
+#[inline]
+fn mask_wide(
+    [square, limit]: [std::arch::x86_64::__m256; 2],
+    at: std::arch::x86_64::__m256,
+    least: f32,
+) -> u32 {
     use std::arch::x86_64::{
         _CMP_GT_OQ, _CMP_LT_OQ, _mm256_cmp_ps, _mm256_movemask_ps, _mm256_or_ps, _mm256_set1_ps,
-        _mm256_setr_ps,
     };
-    let all = |v: Eight| _mm256_setr_ps(v[0], v[1], v[2], v[3], v[4], v[5], v[6], v[7]);
-    let outside = _mm256_cmp_ps::<_CMP_GT_OQ>(all(square), all(limit));
-    let behind = _mm256_cmp_ps::<_CMP_LT_OQ>(all(at), _mm256_set1_ps(least));
+    let outside = _mm256_cmp_ps::<_CMP_GT_OQ>(square, limit);
+    let behind = _mm256_cmp_ps::<_CMP_LT_OQ>(at, _mm256_set1_ps(least));
     !_mm256_movemask_ps(_mm256_or_ps(outside, behind)) as u32
 }
 

@@ -11,7 +11,7 @@ mod point;
 pub mod predicates;
 
 pub use bounds_tree::{BoundsTree, Rect, Visitor};
-pub use capsule_tree::{LEAF, CapsuleTree, Hidden, Look, Scope};
+pub use capsule_tree::{CapsuleTree, Hidden, LEAF, Look, Scope};
 pub use disk::{Governor, TouchingDisk, Unsure};
 pub use double::Double;
 pub use hilbert::hilbert;

@@ -89,8 +89,7 @@ impl Search<'_> {
             }
             let at_limit = limit.filter(|l| l.1 <= reach);
             let position = at_limit.map_or(reach, |l| l.1);
-            let disk =
-                at_limit.map_or_else(|| gap.disk_at(self.domain, position), |l| Some(l.0));
+            let disk = at_limit.map_or_else(|| gap.disk_at(self.domain, position), |l| Some(l.0));
             match self.look(gap, disk) {
                 Look::Hit(hit) => return Some(hit),
                 Look::Clear if blocked == f64::INFINITY => clear = position,
