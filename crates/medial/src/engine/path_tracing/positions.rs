@@ -23,18 +23,20 @@ const CLEARLY_WIDER: f64 = 1.0 + 1e-6;
 /// Contact runs up to which every triple is weighed.
 const FEW_RUNS: usize = 6;
 
-/// Centre and radius of a keypoint, within 4 ulp of max(|x|, |y|, radius).
-///
-/// `found` is a start, within its bounds, and if `own` one that depends on the governors only;
-/// `known` is a triple that defines the disk.
-pub(super) fn position(
-    domain: &Domain,
-    list: &[Site],
-    known: &[Site; 3],
-    found: Start,
-    own: bool,
-) -> Option<(Point, f64)> {
-    let triple = best_triple(domain, list, found.centre).unwrap_or(*known);
+/// The disk of a keypoint as it was found.
+pub(super) struct Fixed<'a> {
+    /// The disk, if it depends on the governors only, and not on how it was found.
+    pub own: Option<&'a TouchingDisk>,
+    /// The disk within its bound.
+    pub found: &'a TouchingDisk,
+    /// Sites that define it exactly.
+    pub triple: [Site; 3],
+}
+
+/// Centre and radius of a keypoint with these governors, within 4 ulp of max(|x|, |y|, radius).
+pub(super) fn position(domain: &Domain, list: &[Site], disk: &Fixed<'_>) -> Option<(Point, f64)> {
+    let found = Start::at(disk.own.unwrap_or(disk.found));
+    let triple = best_triple(domain, list, found.centre).unwrap_or(disk.triple);
     let governors = domain.governors(triple);
     // Far from the start there may be another disk of the same three elements.
     let near = |c: Point, r: f64, doubt: f64| {
@@ -43,7 +45,7 @@ pub(super) fn position(
     };
     // Where the steps begin may tell in the last bit: at the disk that doubles find for the triple
     // alone.
-    let start = if own && list.len() == 3 {
+    let start = if disk.own.is_some() && list.len() == 3 {
         Some(found)
     } else {
         let disk = TouchingDisk::touching(&governors);
@@ -63,7 +65,7 @@ pub(super) fn position(
         }
     }
     let exact = |t: &[Site; 3]| ExactDisk::new(t.map(|s| domain.element(s)));
-    exact(&triple).or_else(|| exact(known)).map(|disk| disk.approximate())
+    exact(&triple).or_else(|| exact(&disk.triple)).map(|disk| disk.approximate())
 }
 
 /// The triple of a governor list with the widest spread of normals; of equal ones the first.

@@ -215,7 +215,7 @@ impl<'a> Tracer<'a> {
                 match known {
                     Some(to) => to,
                     None => {
-                        let to = self.hand.add_keypoint(&disk, triple, &list, fixed);
+                        let to = self.hand.add_keypoint(&disk, triple, &list, fixed)?;
                         let start = Start { triple: Some(triple), ..Start::at(&disk) };
                         self.leave(to, start, &list, right, left).ok_or(EngineError::Internal {
                             stage: "closing a path",
