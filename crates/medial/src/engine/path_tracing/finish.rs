@@ -9,7 +9,7 @@ use super::positions::{Fixed, position};
 use crate::axis::{
     self, Accuracy, Engine, Keypoint, KeypointKind, MedialAxis, Path, Side, SiteKind, SiteTable,
 };
-use crate::domain::{Domain, Site};
+use crate::domain::{Domain, Origin, Site};
 use crate::engine::EngineError;
 use crate::engine::watch::Watch;
 use crate::geom::Point;
@@ -122,11 +122,7 @@ impl Traced {
 
     /// Adds a transition that was passed on a path.
     #[inline]
-    pub fn add_transition(
-        &mut self,
-        domain: &Domain,
-        passed: &Passed,
-    ) -> Result<u32, EngineError> {
+    pub fn add_transition(&mut self, domain: &Domain, passed: &Passed) -> Result<u32, EngineError> {
         let [a, b, c, _] = passed.contacts;
         let own = passed.fixed.then_some(&passed.disk);
         let disk = Fixed { own, found: &passed.disk, triple: [a, b, c] };
@@ -164,8 +160,7 @@ impl Traced {
             path.left = number.of(path.left);
             path.right = number.of(path.right);
         }
-        let marked = number.marked().map(|site| site_record(domain, Site(site)));
-        let sites = site_table(domain, number.len(), marked)?;
+        let sites = site_table(domain, &number)?;
         drop(number);
         axis_of(sites, self.keypoints, self.governors, self.paths)
     }
@@ -191,44 +186,59 @@ pub(super) fn axis_of(
     .ok_or(EngineError::Internal { stage: "numbering sites", place: Point::default() })
 }
 
-/// The table of some sites of a domain.
-pub(super) fn site_table(
-    domain: &Domain,
-    n_sites: usize,
-    records: impl Iterator<Item = axis::Site>,
-) -> Result<SiteTable, EngineError> {
+/// The table of the sites that have a new number.
+fn site_table(domain: &Domain, number: &Numbers) -> Result<SiteTable, EngineError> {
     let n_edges = domain.edges().len();
-    let mut sites = SiteTable::with_room(n_sites, n_edges, domain.walks().len());
-    for record in records {
-        sites.push(&record).ok_or(EngineError::TooLarge { n_edges })?;
+    let mut sites = SiteTable::with_room(number.len(), n_edges, domain.walks().len());
+    for edge in 0..n_edges as u32 {
+        let [corner, side] = [Site::corner(edge), Site::edge(edge)].map(|s| number.has(s.0));
+        if corner || side {
+            let origin = domain.origin(edge);
+            let corner = !corner || sites.push(&corner_record(domain, edge, &origin)).is_some();
+            let side = !side || sites.push(&edge_record(domain, edge, &origin)).is_some();
+            if !corner || !side {
+                return Err(EngineError::TooLarge { n_edges });
+            }
+        }
     }
     sites.shrink();
     Ok(sites)
 }
 
+/// What an axis says of a site.
 pub(super) fn site_record(domain: &Domain, site: Site) -> axis::Site {
-    let k = site.index();
-    let origin = domain.origin(k);
-    let a = domain.edge(k).start;
+    let edge = site.index();
+    let origin = domain.origin(edge);
     if site.is_edge() {
-        axis::Site {
-            kind: SiteKind::Edge,
-            polygon: origin.polygon,
-            ring: origin.ring,
-            index: origin.index,
-            part: origin.part,
-            a,
-            b: domain.end(k),
-        }
+        edge_record(domain, edge, &origin)
     } else {
-        axis::Site {
-            kind: SiteKind::Vertex,
-            polygon: origin.polygon,
-            ring: origin.corner.ring,
-            index: origin.corner.index,
-            part: origin.corner.part,
-            a,
-            b: a,
-        }
+        corner_record(domain, edge, &origin)
+    }
+}
+
+#[inline]
+fn edge_record(domain: &Domain, edge: u32, origin: &Origin) -> axis::Site {
+    axis::Site {
+        kind: SiteKind::Edge,
+        polygon: origin.polygon,
+        ring: origin.ring,
+        index: origin.index,
+        part: origin.part,
+        a: domain.edge(edge).start,
+        b: domain.end(edge),
+    }
+}
+
+#[inline]
+fn corner_record(domain: &Domain, edge: u32, origin: &Origin) -> axis::Site {
+    let at = domain.edge(edge).start;
+    axis::Site {
+        kind: SiteKind::Vertex,
+        polygon: origin.polygon,
+        ring: origin.corner.ring,
+        index: origin.corner.index,
+        part: origin.corner.part,
+        a: at,
+        b: at,
     }
 }

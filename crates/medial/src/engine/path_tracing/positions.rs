@@ -34,6 +34,7 @@ pub(super) struct Fixed<'a> {
 }
 
 /// Centre and radius of a keypoint with these governors, within 4 ulp of max(|x|, |y|, radius).
+#[inline(never)]
 pub(super) fn position(domain: &Domain, list: &[Site], disk: &Fixed<'_>) -> Option<(Point, f64)> {
     let found = Start::at(disk.own.unwrap_or(disk.found));
     let triple = best_triple(domain, list, found.centre).unwrap_or(disk.triple);
