@@ -45,6 +45,15 @@ impl Double {
         Self { hi, lo }
     }
 
+    /// The difference, right to about 2^-100 of the larger operand only.
+    #[inline]
+    #[must_use]
+    pub fn minus(self, other: Self) -> Self {
+        let (s, e) = two_sum(self.hi, -other.hi);
+        let (hi, lo) = quick_two_sum(s, e + (self.lo - other.lo));
+        Self { hi, lo }
+    }
+
     /// `a * b + c * d`, right to about 2^-100 of the larger product.
     #[inline]
     #[must_use]

@@ -6,6 +6,7 @@ use super::chain::Passed;
 use super::hand::{from_least, three_from_least};
 use super::numbers::Numbers;
 use super::positions::{Fixed, position};
+use super::search::Start;
 use crate::axis::{
     self, Accuracy, Engine, Keypoint, KeypointKind, MedialAxis, Path, Side, SiteKind, SiteTable,
 };
@@ -13,6 +14,13 @@ use crate::domain::{Domain, Origin, Site};
 use crate::engine::EngineError;
 use crate::engine::watch::Watch;
 use crate::geom::Point;
+
+/// Most that the distance of a keypoint's boundary from that of its exact disk is, in any direction,
+/// relative to max(|x|, |y|, radius).
+///
+/// Each of the three numbers is within two units in the last place, or within three together and
+/// rounded once.
+const PLACED: f64 = 6.0 * f64::EPSILON;
 
 /// Keypoints and paths, with sites by their numbers in the domain.
 #[derive(Debug, Default)]
@@ -132,6 +140,16 @@ impl Traced {
         }
         let list = from_least(&passed.contacts[..usize::from(passed.n_contacts)]);
         self.add_disk(domain, &disk, kind, &list)
+    }
+
+    /// Where a path starts that leaves a keypoint, which these sites define if it is no end.
+    pub fn start(&self, keypoint: u32, triple: [Site; 3]) -> Start {
+        let Keypoint { position: centre, radius, kind, .. } = self.keypoints[keypoint as usize];
+        if kind == KeypointKind::End {
+            return Start { centre, radius, doubt: 0.0, triple: None };
+        }
+        let doubt = PLACED * centre.x.abs().max(centre.y.abs()).max(radius);
+        Start { centre, radius, doubt, triple: Some(triple) }
     }
 
     /// Adds keypoints of other tables.

@@ -66,7 +66,7 @@ impl Vector {
     }
 
     fn minus(self, other: Self) -> Self {
-        Self { x: self.x - other.x, y: self.y - other.y }
+        Self { x: self.x.minus(other.x), y: self.y.minus(other.y) }
     }
 
     fn dot(self, other: Self) -> Double {
