@@ -74,8 +74,13 @@ impl SiteTable {
 
     /// Adds a site; `None` if there are too many points. Takes least room for sites in boundary
     /// order.
-    #[inline]
     pub fn push(&mut self, site: &Site) -> Option<()> {
+        self.put(site)
+    }
+
+    /// The same, compiled for the site at hand.
+    #[inline(always)]
+    pub fn put(&mut self, site: &Site) -> Option<()> {
         let number = self.records.len();
         if self.points.len() + 2 > POINT as usize || number >= u32::MAX as usize {
             return None;

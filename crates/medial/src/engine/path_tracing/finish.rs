@@ -212,8 +212,8 @@ fn site_table(domain: &Domain, number: &Numbers) -> Result<SiteTable, EngineErro
         let [corner, side] = [Site::corner(edge), Site::edge(edge)].map(|s| number.has(s.0));
         if corner || side {
             let origin = domain.origin(edge);
-            let corner = !corner || sites.push(&corner_record(domain, edge, &origin)).is_some();
-            let side = !side || sites.push(&edge_record(domain, edge, &origin)).is_some();
+            let corner = !corner || sites.put(&corner_record(domain, edge, &origin)).is_some();
+            let side = !side || sites.put(&edge_record(domain, edge, &origin)).is_some();
             if !corner || !side {
                 return Err(EngineError::TooLarge { n_edges });
             }
