@@ -75,10 +75,17 @@ impl SiteTable {
     /// Adds a site; `None` if there are too many points. Takes least room for sites in boundary
     /// order.
     pub fn push(&mut self, site: &Site) -> Option<()> {
-        if self.points.len() + 2 > POINT as usize {
+        self.put(site)
+    }
+
+    /// The same, compiled for the site at hand.
+    #[inline(always)]
+    pub fn put(&mut self, site: &Site) -> Option<()> {
+        let number = self.records.len();
+        if self.points.len() + 2 > POINT as usize || number >= u32::MAX as usize {
             return None;
         }
-        let number = u32::try_from(self.records.len()).ok().filter(|&k| k < u32::MAX)?;
+        let number = number as u32;
         let (walk, start) = match (self.walk, self.points.last()) {
             (Some(walk), Some(&last)) if same(last, site.a) => (walk, self.points.len() as u32 - 1),
             _ => {
@@ -113,6 +120,7 @@ impl SiteTable {
         Some(())
     }
 
+    #[inline]
     fn add(&mut self, point: Point) -> u32 {
         self.points.push(point);
         self.points.len() as u32 - 1

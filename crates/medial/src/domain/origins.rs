@@ -60,6 +60,7 @@ pub(super) enum Source {
 
 impl Domain {
     /// Where edge number `edge` and the corner at its start come from.
+    #[inline]
     #[must_use]
     pub fn origin(&self, edge: u32) -> Origin {
         let walk = self.edge(edge).walk as usize;

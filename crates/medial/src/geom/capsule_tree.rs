@@ -122,10 +122,12 @@ impl CapsuleTree {
             a + (b - a) * 0.5
         };
         let bounds = (base..base + n_edges).fold(Rect::EMPTY, |all, k| all.with(middle(k)));
-        let mut order: Vec<(u64, u32)> =
-            (base..base + n_edges).map(|k| (hilbert(&bounds, middle(k)), k)).collect();
+        // Position along the curve, then number: 32 bits each.
+        let mut order: Vec<u64> = (base..base + n_edges)
+            .map(|k| hilbert(&bounds, middle(k)) << 32 | u64::from(k))
+            .collect();
         order.sort_unstable();
-        let order = order.into_iter().map(|(_, k)| k).collect();
+        let order = order.into_iter().map(|key| key as u32).collect();
         Self::over(base, n_edges, Some(order), ends)
     }
 

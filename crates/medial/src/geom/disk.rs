@@ -110,9 +110,9 @@ impl TouchingDisk {
     #[must_use]
     pub fn is_precise(&self) -> bool {
         let position = self.position();
-        let size = position.x.abs().max(position.y.abs()).max(self.radius);
         // Three units in the last place at most; rounding adds half a one.
-        self.bound <= 1.5 * f64::EPSILON * size
+        let precise = |size: f64| self.bound <= 1.5 * f64::EPSILON * size;
+        precise(self.radius) || precise(position.x.abs()) || precise(position.y.abs())
     }
 
     /// The disk that touches three elements counterclockwise in the order given, uncertified.

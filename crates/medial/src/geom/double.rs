@@ -38,10 +38,40 @@ impl Double {
             return Self::ZERO;
         }
         let root = self.hi.sqrt();
-        let square = Self::from(root) * Self::from(root);
-        let rest = (self - square).hi / (2.0 * root);
+        let (p, e) = two_product(root, root);
+        // The first difference is exact.
+        let rest = ((self.hi - p) - e + self.lo) / (2.0 * root);
         let (hi, lo) = quick_two_sum(root, rest);
         Self { hi, lo }
+    }
+
+    /// The difference, right to about 2^-100 of the larger operand only.
+    #[inline]
+    #[must_use]
+    pub fn minus(self, other: Self) -> Self {
+        let (s, e) = two_sum(self.hi, -other.hi);
+        let (hi, lo) = quick_two_sum(s, e + (self.lo - other.lo));
+        Self { hi, lo }
+    }
+
+    /// `a * b + c * d`, right to about 2^-100 of the larger product.
+    #[inline]
+    #[must_use]
+    pub fn sum_of_products(a: Self, b: Self, c: Self, d: Self) -> Self {
+        let (p, e) = two_product(a.hi, b.hi);
+        let (q, f) = two_product(c.hi, d.hi);
+        let (s, g) = two_sum(p, q);
+        let cross = (a.hi * b.lo + a.lo * b.hi) + (c.hi * d.lo + c.lo * d.hi);
+        let (hi, lo) = quick_two_sum(s, g + (e + f + cross));
+        Self { hi, lo }
+    }
+
+    /// `self - a * b`, rounded about once where both agree in their first digits.
+    #[inline]
+    #[must_use]
+    pub fn less_product(self, a: Self, b: Self) -> f64 {
+        let (p, e) = two_product(a.hi, b.hi);
+        (self.hi - p) + (self.lo - e - (a.hi * b.lo + a.lo * b.hi))
     }
 }
 
@@ -95,11 +125,8 @@ impl Div for Double {
     #[inline]
     fn div(self, other: Self) -> Self {
         let q = self.hi / other.hi;
-        let rest = self - other * Self::from(q);
-        let q2 = rest.hi / other.hi;
-        let rest = rest - other * Self::from(q2);
-        let (hi, lo) = quick_two_sum(q, q2);
-        Self { hi, lo } + Self::from(rest.hi / other.hi)
+        let (hi, lo) = quick_two_sum(q, self.less_product(other, Self::from(q)) / other.hi);
+        Self { hi, lo }
     }
 }
 

@@ -3,29 +3,24 @@
 use std::ops::Range;
 
 use super::chain::Passed;
-use super::hand::from_least;
+use super::hand::{from_least, three_from_least};
 use super::numbers::Numbers;
-use super::positions::position;
+use super::positions::{Fixed, position};
 use super::search::Start;
 use crate::axis::{
     self, Accuracy, Engine, Keypoint, KeypointKind, MedialAxis, Path, Side, SiteKind, SiteTable,
 };
-use crate::domain::{Domain, Site};
+use crate::domain::{Domain, Origin, Site};
 use crate::engine::EngineError;
 use crate::engine::watch::Watch;
-use crate::geom::{Point, TouchingDisk};
+use crate::geom::Point;
 
-/// A keypoint that must be placed more precisely.
-#[derive(Clone, Copy, Debug)]
-struct Rough {
-    keypoint: u32,
-    /// Sites that define its exact disk.
-    triple: [Site; 3],
-    /// Bound on the error of its position and radius.
-    doubt: f64,
-    /// Whether these depend on the governors only.
-    own: bool,
-}
+/// Most that the distance of a keypoint's boundary from that of its exact disk is, in any direction,
+/// relative to max(|x|, |y|, radius).
+///
+/// Each of the three numbers is within two units in the last place, or within three together and
+/// rounded once.
+const PLACED: f64 = 6.0 * f64::EPSILON;
 
 /// Keypoints and paths, with sites by their numbers in the domain.
 #[derive(Debug, Default)]
@@ -33,7 +28,6 @@ pub(super) struct Traced {
     pub keypoints: Vec<Keypoint>,
     pub governors: Vec<u32>,
     pub paths: Vec<Path>,
-    rough: Vec<Rough>,
 }
 
 /// How much was traced at some moment.
@@ -42,7 +36,6 @@ pub(super) struct Mark {
     keypoints: usize,
     governors: usize,
     paths: usize,
-    rough: usize,
 }
 
 impl Traced {
@@ -56,7 +49,6 @@ impl Traced {
             keypoints: Vec::with_capacity(n_keypoints),
             governors: Vec::with_capacity(3 * n_keypoints),
             paths: Vec::with_capacity(n_keypoints + n_holes),
-            rough: Vec::new(),
         }
     }
 
@@ -65,7 +57,6 @@ impl Traced {
             keypoints: self.keypoints.len(),
             governors: self.governors.len(),
             paths: self.paths.len(),
-            rough: self.rough.len(),
         }
     }
 
@@ -79,7 +70,6 @@ impl Traced {
         self.keypoints.truncate(mark.keypoints);
         self.governors.truncate(mark.governors);
         self.paths.truncate(mark.paths);
-        self.rough.truncate(mark.rough);
     }
 
     /// Makes room for about that many paths.
@@ -107,40 +97,59 @@ impl Traced {
     }
 
     /// Adds a keypoint with its governors, from the smallest one on.
+    #[inline]
     pub fn add(&mut self, position: Point, radius: f64, kind: KeypointKind, list: &[Site]) -> u32 {
         let number = self.keypoints.len() as u32;
         let first = self.governors.len() as u32;
-        self.governors.extend(list.iter().map(|s| s.0));
+        match *list {
+            [a, b, c] => self.governors.extend_from_slice(&[a.0, b.0, c.0]),
+            _ => self.governors.extend(list.iter().map(|s| s.0)),
+        }
         self.keypoints.push(Keypoint::new(position, radius, kind, first));
         number
     }
 
-    /// Adds a keypoint that may be in need of a more precise position: unless `fixed` is precise, the
-    /// disk of all its governors that does not depend on the way it was found.
+    /// Adds a keypoint as precisely as promised, with its governors from the smallest one on.
+    #[inline]
     pub fn add_disk(
         &mut self,
-        fixed: Option<&TouchingDisk>,
-        disk: &TouchingDisk,
-        triple: [Site; 3],
+        domain: &Domain,
+        disk: &Fixed<'_>,
+        kind: KeypointKind,
         list: &[Site],
-    ) -> u32 {
-        if let Some(fixed) = fixed.filter(|fixed| fixed.is_precise()) {
-            return self.add(fixed.position(), fixed.radius, KeypointKind::Junction, list);
-        }
-        let Start { centre, radius, doubt, .. } = Start::at(fixed.unwrap_or(disk));
-        let keypoint = self.add(centre, radius, KeypointKind::Junction, list);
-        self.rough.push(Rough { keypoint, triple, doubt, own: fixed.is_some() });
-        keypoint
+    ) -> Result<u32, EngineError> {
+        let (centre, radius) = match disk.own.filter(|own| own.is_precise()) {
+            Some(own) => (own.position(), own.radius),
+            None => position(domain, list, disk).ok_or_else(|| EngineError::Internal {
+                stage: "placing a keypoint",
+                place: disk.found.position(),
+            })?,
+        };
+        Ok(self.add(centre, radius, kind, list))
     }
 
     /// Adds a transition that was passed on a path.
-    pub fn add_transition(&mut self, passed: &Passed) -> u32 {
-        let list = &passed.contacts[..usize::from(passed.n_contacts)];
+    #[inline]
+    pub fn add_transition(&mut self, domain: &Domain, passed: &Passed) -> Result<u32, EngineError> {
         let [a, b, c, _] = passed.contacts;
-        let fixed = passed.fixed.then_some(passed.disk);
-        let keypoint = self.add_disk(fixed.as_ref(), &passed.disk, [a, b, c], &from_least(list));
-        self.keypoints[keypoint as usize].kind = KeypointKind::Transition;
-        keypoint
+        let own = passed.fixed.then_some(&passed.disk);
+        let disk = Fixed { own, found: &passed.disk, triple: [a, b, c] };
+        let kind = KeypointKind::Transition;
+        if passed.n_contacts == 3 {
+            return self.add_disk(domain, &disk, kind, &three_from_least([a, b, c]));
+        }
+        let list = from_least(&passed.contacts[..usize::from(passed.n_contacts)]);
+        self.add_disk(domain, &disk, kind, &list)
+    }
+
+    /// Where a path starts that leaves a keypoint, which these sites define if it is no end.
+    pub fn start(&self, keypoint: u32, triple: [Site; 3]) -> Start {
+        let Keypoint { position: centre, radius, kind, .. } = self.keypoints[keypoint as usize];
+        if kind == KeypointKind::End {
+            return Start { centre, radius, doubt: 0.0, triple: None };
+        }
+        let doubt = PLACED * centre.x.abs().max(centre.y.abs()).max(radius);
+        Start { centre, radius, doubt, triple: Some(triple) }
     }
 
     /// Adds keypoints of other tables.
@@ -155,30 +164,12 @@ impl Traced {
         self.keypoints.extend(other.keypoints[start..end].iter().map(moved));
     }
 
-    /// The axis: every position computed as precisely as promised.
-    pub fn finish(mut self, domain: &Domain, watch: &Watch<'_>) -> Result<MedialAxis, EngineError> {
-        self.place(domain, watch)?;
-        self.number(domain, watch)
-    }
-
-    /// Computes every position as precisely as promised.
-    pub fn place(&mut self, domain: &Domain, watch: &Watch<'_>) -> Result<(), EngineError> {
-        for rough in std::mem::take(&mut self.rough) {
-            watch.check()?;
-            let list: Vec<Site> = self.governors_of(rough.keypoint);
-            let keypoint = &mut self.keypoints[rough.keypoint as usize];
-            let (centre, radius) = (keypoint.position, keypoint.radius);
-            let found = Start { centre, radius, doubt: rough.doubt, triple: None };
-            (keypoint.position, keypoint.radius) =
-                position(domain, &list, &rough.triple, found, rough.own)
-                    .ok_or(EngineError::Internal { stage: "placing a keypoint", place: centre })?;
-        }
-        Ok(())
-    }
-
     /// The axis, with the sites that govern something numbered in boundary order.
-    pub fn number(mut self, domain: &Domain, watch: &Watch<'_>) -> Result<MedialAxis, EngineError> {
+    pub fn finish(mut self, domain: &Domain, watch: &Watch<'_>) -> Result<MedialAxis, EngineError> {
         watch.check()?;
+        self.keypoints.shrink_to_fit();
+        self.governors.shrink_to_fit();
+        self.paths.shrink_to_fit();
         let number = Numbers::new(2 * domain.edges().len(), &self.governors);
         for site in &mut self.governors {
             *site = number.of(*site);
@@ -187,11 +178,7 @@ impl Traced {
             path.left = number.of(path.left);
             path.right = number.of(path.right);
         }
-        self.keypoints.shrink_to_fit();
-        self.governors.shrink_to_fit();
-        self.paths.shrink_to_fit();
-        let marked = number.marked().map(|site| site_record(domain, Site(site)));
-        let sites = site_table(domain, number.len(), marked)?;
+        let sites = site_table(domain, &number)?;
         drop(number);
         axis_of(sites, self.keypoints, self.governors, self.paths)
     }
@@ -217,44 +204,59 @@ pub(super) fn axis_of(
     .ok_or(EngineError::Internal { stage: "numbering sites", place: Point::default() })
 }
 
-/// The table of some sites of a domain.
-pub(super) fn site_table(
-    domain: &Domain,
-    n_sites: usize,
-    records: impl Iterator<Item = axis::Site>,
-) -> Result<SiteTable, EngineError> {
+/// The table of the sites that have a new number.
+fn site_table(domain: &Domain, number: &Numbers) -> Result<SiteTable, EngineError> {
     let n_edges = domain.edges().len();
-    let mut sites = SiteTable::with_room(n_sites, n_edges, domain.walks().len());
-    for record in records {
-        sites.push(&record).ok_or(EngineError::TooLarge { n_edges })?;
+    let mut sites = SiteTable::with_room(number.len(), n_edges, domain.walks().len());
+    for edge in 0..n_edges as u32 {
+        let [corner, side] = [Site::corner(edge), Site::edge(edge)].map(|s| number.has(s.0));
+        if corner || side {
+            let origin = domain.origin(edge);
+            let corner = !corner || sites.put(&corner_record(domain, edge, &origin)).is_some();
+            let side = !side || sites.put(&edge_record(domain, edge, &origin)).is_some();
+            if !corner || !side {
+                return Err(EngineError::TooLarge { n_edges });
+            }
+        }
     }
     sites.shrink();
     Ok(sites)
 }
 
+/// What an axis says of a site.
 pub(super) fn site_record(domain: &Domain, site: Site) -> axis::Site {
-    let k = site.index();
-    let origin = domain.origin(k);
-    let a = domain.edge(k).start;
+    let edge = site.index();
+    let origin = domain.origin(edge);
     if site.is_edge() {
-        axis::Site {
-            kind: SiteKind::Edge,
-            polygon: origin.polygon,
-            ring: origin.ring,
-            index: origin.index,
-            part: origin.part,
-            a,
-            b: domain.end(k),
-        }
+        edge_record(domain, edge, &origin)
     } else {
-        axis::Site {
-            kind: SiteKind::Vertex,
-            polygon: origin.polygon,
-            ring: origin.corner.ring,
-            index: origin.corner.index,
-            part: origin.corner.part,
-            a,
-            b: a,
-        }
+        corner_record(domain, edge, &origin)
+    }
+}
+
+#[inline]
+fn edge_record(domain: &Domain, edge: u32, origin: &Origin) -> axis::Site {
+    axis::Site {
+        kind: SiteKind::Edge,
+        polygon: origin.polygon,
+        ring: origin.ring,
+        index: origin.index,
+        part: origin.part,
+        a: domain.edge(edge).start,
+        b: domain.end(edge),
+    }
+}
+
+#[inline]
+fn corner_record(domain: &Domain, edge: u32, origin: &Origin) -> axis::Site {
+    let at = domain.edge(edge).start;
+    axis::Site {
+        kind: SiteKind::Vertex,
+        polygon: origin.polygon,
+        ring: origin.corner.ring,
+        index: origin.corner.index,
+        part: origin.corner.part,
+        a: at,
+        b: at,
     }
 }

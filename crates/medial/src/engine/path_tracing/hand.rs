@@ -3,6 +3,7 @@ use smallvec::SmallVec;
 use super::chain::{Passed, facing};
 use super::contacts::{Contacts, follows};
 use super::finish::Traced;
+use super::positions::Fixed;
 use super::search::{Found, Search, Start};
 use crate::axis::{KeypointKind, Path};
 use crate::domain::{Domain, Site};
@@ -58,7 +59,7 @@ impl<'a> Hand<'a> {
         };
         let (last_right, last_left) = search.link;
         for passed in &search.passed {
-            let to = self.traced.add_transition(passed);
+            let to = self.traced.add_transition(self.domain, passed)?;
             let Passed { right, left, .. } = *passed;
             self.traced.paths.push(path(from, to, right, left));
             from = to;
@@ -80,14 +81,15 @@ impl<'a> Hand<'a> {
         triple: [Site; 3],
         list: &[Site],
         fixed: bool,
-    ) -> u32 {
+    ) -> Result<u32, EngineError> {
         // The position depends on the governors only, not on how the keypoint was found.
         let own = match *list {
             _ if fixed => Some(*disk),
             [a, b, c] => TouchingDisk::touching(&self.domain.governors([a, b, c])),
             _ => facing(self.domain, list),
         };
-        self.traced.add_disk(own.as_ref(), disk, triple, list)
+        let disk = Fixed { own: own.as_ref(), found: disk, triple };
+        self.traced.add_disk(self.domain, &disk, KeypointKind::Junction, list)
     }
 
     /// What a keypoint with these openings is.
@@ -117,8 +119,23 @@ pub(super) fn path(from: u32, to: u32, right: Site, left: Site) -> Path {
 
 /// A cyclic list from its smallest member on.
 pub(super) fn from_least(list: &[Site]) -> Contacts {
+    if let [a, b, c] = *list {
+        return Contacts::from_slice(&three_from_least([a, b, c]));
+    }
     let least = (0..list.len()).min_by_key(|&k| list[k]).unwrap_or(0);
     list[least..].iter().chain(&list[..least]).copied().collect()
+}
+
+/// The same of three.
+#[inline]
+pub(super) fn three_from_least([a, b, c]: [Site; 3]) -> [Site; 3] {
+    if a < b && a < c {
+        [a, b, c]
+    } else if b < c {
+        [b, c, a]
+    } else {
+        [c, a, b]
+    }
 }
 
 impl Start {

@@ -38,6 +38,7 @@ mod order;
 mod parallel;
 mod positions;
 mod probe;
+mod refine;
 mod rings;
 mod search;
 mod steps;

@@ -201,10 +201,11 @@ impl<'a> Search<'a> {
         }
         self.mended = true;
         let (domain, items) = (self.domain, self.tree.items());
-        let sort = || {
-            let ends = |k| (domain.edge(k).start, domain.end(k));
-            Arc::new(CapsuleTree::along_a_curve(items.start, items.end - items.start, ends))
-        };
+        let ends = |k| (domain.edge(k).start, domain.end(k));
+        // What nobody else uses makes room for the other one.
+        self.tree = Arc::new(CapsuleTree::new(items.start, 0, ends));
+        let sort =
+            || Arc::new(CapsuleTree::along_a_curve(items.start, items.end - items.start, ends));
         self.tree = self.sorted.get_or_init(sort).clone();
     }
 

@@ -3,7 +3,7 @@ use std::ops::Range;
 use super::finish::{Mark, Traced};
 use super::gaps::Gaps;
 use super::hand::{Arrival, Hand, from_least, openings, path};
-use super::search::{Found, Search, Start};
+use super::search::{Found, Search};
 use crate::axis::MedialAxis;
 use crate::domain::{Corner, Domain, Site};
 use crate::engine::EngineError;
@@ -16,10 +16,13 @@ struct Pending {
     keypoint: u32,
     right: Site,
     left: Site,
-    /// Number among the open gaps, where loops may close.
-    gap: Option<u32>,
-    start: Start,
+    /// Number among the open gaps, where loops may close; else [`NONE`].
+    gap: u32,
+    /// Sites that define the disk at the start; none in a convex corner.
+    triple: [Site; 3],
 }
+
+const NONE: u32 = u32::MAX;
 
 /// How a polygon is traced; each way takes longer than the one before and trusts less.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -134,8 +137,8 @@ impl<'a> Tracer<'a> {
     pub fn step(&mut self) -> Result<bool, EngineError> {
         loop {
             while let Some(pending) = self.stack.pop() {
-                let taken = match (&mut self.gaps, pending.gap) {
-                    (Some(gaps), Some(gap)) => gaps.take(gap),
+                let taken = match &mut self.gaps {
+                    Some(gaps) if pending.gap != NONE => gaps.take(pending.gap),
                     _ => true,
                 };
                 if taken {
@@ -147,8 +150,9 @@ impl<'a> Tracer<'a> {
             }
             if let Some(corner) = self.seeds.pop() {
                 let keypoint = self.hand.add_end(corner);
-                let (right, left, start) = self.hand.corner(corner);
-                self.stack.push(Pending { keypoint, right, left, gap: None, start });
+                let (right, left, _) = self.hand.corner(corner);
+                let triple = [right, left, left];
+                self.stack.push(Pending { keypoint, right, left, gap: NONE, triple });
                 continue;
             }
             if self.met.contains(&false) {
@@ -199,7 +203,8 @@ impl<'a> Tracer<'a> {
     }
 
     fn trace(&mut self, pending: Pending) -> Result<(), EngineError> {
-        let Pending { keypoint, right, left, start, .. } = pending;
+        let Pending { keypoint, right, left, triple, .. } = pending;
+        let start = self.hand.traced.start(keypoint, triple);
         let Arrival { from, right, left, found } =
             self.hand.follow(keypoint, right, left, start)?;
         let to = match found {
@@ -215,12 +220,10 @@ impl<'a> Tracer<'a> {
                 match known {
                     Some(to) => to,
                     None => {
-                        let to = self.hand.add_keypoint(&disk, triple, &list, fixed);
-                        let start = Start { triple: Some(triple), ..Start::at(&disk) };
-                        self.leave(to, start, &list, right, left).ok_or(EngineError::Internal {
-                            stage: "closing a path",
-                            place: start.centre,
-                        })?;
+                        let to = self.hand.add_keypoint(&disk, triple, &list, fixed)?;
+                        let place = disk.position();
+                        self.leave(to, triple, &list, right, left)
+                            .ok_or(EngineError::Internal { stage: "closing a path", place })?;
                         to
                     }
                 }
@@ -239,7 +242,7 @@ impl<'a> Tracer<'a> {
     fn leave(
         &mut self,
         keypoint: u32,
-        start: Start,
+        triple: [Site; 3],
         list: &[Site],
         right: Site,
         left: Site,
@@ -255,8 +258,8 @@ impl<'a> Tracer<'a> {
         // What follows the arrival is traced first.
         let (before, after) = (&openings[..arrived], &openings[arrived + 1..]);
         for &(right, left) in before.iter().rev().chain(after.iter().rev()) {
-            let gap = self.gaps.as_mut().map(|gaps| gaps.open(keypoint, right, left));
-            self.stack.push(Pending { keypoint, right, left, gap, start });
+            let gap = self.gaps.as_mut().map_or(NONE, |gaps| gaps.open(keypoint, right, left));
+            self.stack.push(Pending { keypoint, right, left, gap, triple });
         }
         self.hand.set_kind(keypoint, openings.len());
         Some(())

@@ -5,10 +5,10 @@ use std::sync::atomic::{AtomicU32, AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 use std::thread;
 
-use super::super::finish::{Traced, axis_of, site_record, site_table};
+use super::super::finish::{Traced, axis_of, site_record};
 use super::replay::Piece;
 use super::worker::{End, Share};
-use crate::axis::{self, MedialAxis, Path};
+use crate::axis::{self, MedialAxis, Path, SiteTable};
 use crate::domain::{Domain, Site};
 use crate::engine::EngineError;
 use crate::engine::watch::Watch;
@@ -90,8 +90,13 @@ pub(super) fn gather(
         paths.push(group.paths);
     }
     let n_sites = sites.iter().map(Vec::len).sum();
-    let sites = site_table(domain, n_sites, sites.into_iter().flatten())?;
-    axis_of(sites, joined(keypoints), joined(governors), joined(paths)).map(Some)
+    let n_edges = domain.edges().len();
+    let mut table = SiteTable::with_room(n_sites, n_edges, domain.walks().len());
+    for site in sites.into_iter().flatten() {
+        table.push(&site).ok_or(EngineError::TooLarge { n_edges })?;
+    }
+    table.shrink();
+    axis_of(table, joined(keypoints), joined(governors), joined(paths)).map(Some)
 }
 
 /// The pieces in as many groups of about the same size.

@@ -126,10 +126,7 @@ impl<'s, 'a> Worker<'s, 'a> {
 
     /// Works until nothing is left to do.
     pub fn work(&mut self) {
-        let done = self
-            .trace_all()
-            .and_then(|()| self.hand.traced.place(self.shared.domain, &self.hand.watch));
-        if let Err(error) = done {
+        if let Err(error) = self.trace_all() {
             self.shared.pool.fail(error);
         }
     }
@@ -273,7 +270,7 @@ impl<'s, 'a> Worker<'s, 'a> {
             let next = Start { triple: Some(triple), ..Start::at(&disk) };
             if let [one, other] = openings[..] {
                 // A transition of a path that goes on.
-                from = self.hand.add_keypoint(&disk, triple, &list, fixed);
+                from = self.hand.add_keypoint(&disk, triple, &list, fixed)?;
                 self.hand.set_kind(from, 2);
                 self.hand.traced.paths.push(Path { to: from, ..last });
                 (right, left) = if arrived == 0 { other } else { one };
@@ -288,7 +285,7 @@ impl<'s, 'a> Worker<'s, 'a> {
             break match large.meetings.arrive(&list, n_gaps, gap, place) {
                 Arrived::Known(gap) => End::Gap(gap),
                 Arrived::New(first) => {
-                    let keypoint = self.hand.add_keypoint(&disk, triple, &list, fixed);
+                    let keypoint = self.hand.add_keypoint(&disk, triple, &list, fixed)?;
                     self.hand.set_kind(keypoint, openings.len());
                     self.open(polygon, first, &openings, arrived, next);
                     End::Gap(Gap { number: first.number + gap, ..first })
@@ -362,7 +359,7 @@ impl<'s, 'a> Worker<'s, 'a> {
                 Found::Corner(corner) => self.hand.add_end(corner),
                 Found::Disk { disk, triple, contacts, fixed } => {
                     let list = from_least(&contacts);
-                    let to = self.hand.add_keypoint(&disk, triple, &list, fixed);
+                    let to = self.hand.add_keypoint(&disk, triple, &list, fixed)?;
                     let openings = openings(self.shared.domain, &list);
                     let arrived = openings.iter().position(|&o| o == (left, right)).ok_or(
                         EngineError::Internal { stage: "closing a path", place: start.centre },
