@@ -41,7 +41,7 @@ const GROWTH: f64 = 2.0;
 const LEAP: f64 = 4.0;
 
 /// Elements to either side of one that was met beyond its end that are proposed instead.
-const FEW: usize = 4;
+const FEW: usize = 3;
 
 /// Way, in lengths of the edges there, beyond which the next elements are tried as well.
 const FAR: f64 = 3.0;
@@ -113,6 +113,9 @@ impl Search<'_> {
     /// the way in `self.passed`; `None` if doubles and a few exact questions cannot tell.
     pub fn chase(&mut self, right: Site, left: Site, start: Start) -> Option<Found> {
         self.passed.clear();
+        if self.runs_into_corner(right, left) {
+            return self.ends_in_corner(right, left, start);
+        }
         self.banned.clear();
         let front = Front::new(self.domain, right, left);
         let (mut r, mut l) = (right, left);
@@ -124,9 +127,7 @@ impl Search<'_> {
         let mut known = if least.is_finite() { start.radius.max(least) } else { start.radius };
         loop {
             if self.runs_into_corner(r, l) {
-                self.link = (r, l);
-                let end = Round::corner(self.domain.edge(l.index()).start);
-                return self.is_open(r, l, start, end).then_some(Found::Corner(l.index()));
+                return self.ends_in_corner(r, l, start);
             }
             let gap = Gap::new(r, l, here, front);
             let event = self.next_event(&gap);
@@ -176,6 +177,14 @@ impl Search<'_> {
             }
             return self.settle_chain(start, front, end?);
         }
+    }
+
+    /// The end of a path in the convex corner between its governors, if no ring lies before it.
+    #[inline]
+    fn ends_in_corner(&mut self, right: Site, left: Site, anchor: Start) -> Option<Found> {
+        self.link = (right, left);
+        let end = Round::corner(self.domain.edge(left.index()).start);
+        self.is_open(right, left, anchor, end).then_some(Found::Corner(left.index()))
     }
 
     /// Where a disk of the path is many edges away, a nearer one that the next elements of the

@@ -108,9 +108,15 @@ impl<'a> Hand<'a> {
 
 /// The neighbouring contacts of a keypoint that have a path between them, in the order given.
 pub(super) fn openings(domain: &Domain, contacts: &[Site]) -> Openings {
-    let pairs = contacts.iter().zip(contacts.iter().cycle().skip(1));
-    // Neighbours on the boundary share their footpoint: one run, no path between them.
-    pairs.map(|(&r, &l)| (r, l)).filter(|&(r, l)| !follows(domain, r, l)).collect()
+    let mut openings = Openings::new();
+    for (k, &right) in contacts.iter().enumerate() {
+        let left = contacts[if k + 1 < contacts.len() { k + 1 } else { 0 }];
+        // Neighbours on the boundary share their footpoint: one run, no path between them.
+        if !follows(domain, right, left) {
+            openings.push((right, left));
+        }
+    }
+    openings
 }
 
 pub(super) fn path(from: u32, to: u32, right: Site, left: Site) -> Path {
