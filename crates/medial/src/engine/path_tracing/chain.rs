@@ -23,7 +23,7 @@ use std::cmp::Ordering;
 use super::contacts::follows;
 use super::front::Front;
 use super::rings::{Link, Round};
-use super::search::{Found, Gap, Proposal, SLACK, Search, Start, contact_behind, rounded};
+use super::search::{Found, Gap, Proposal, SLACK, Search, Start, contact_behind};
 use super::verify::{Verdict, Verify, cuts_clearly};
 use crate::domain::{Corner, Domain, Edge, Site};
 use crate::geom::{Point, TouchingDisk, Unsure};
@@ -45,6 +45,10 @@ const FEW: usize = 4;
 
 /// Way, in lengths of the edges there, beyond which the next elements are tried as well.
 const FAR: f64 = 3.0;
+
+/// Bound of a disk, as a share of its radius, above which exact arithmetic rounds it: what it leaves in
+/// doubt would be asked of exact arithmetic one by one.
+const POOR: f64 = 1e-9;
 
 /// Disks looked into before the path is left to exact arithmetic.
 const MOST_ROUNDS: usize = 64;
@@ -524,22 +528,20 @@ impl Search<'_> {
             let here = self.passed.last().map_or(anchor, |p| Start::at(&p.disk));
             let gap = Gap::new(right, left, here, front);
             let triple = gap.triple(end.site);
-            let by_form = exact.is_none();
             let disk = if end.disk.bound.is_finite() {
                 end.disk
             } else {
                 let governors = self.domain.governors(triple);
                 match TouchingDisk::touching(&governors) {
-                    Some(d) => d,
-                    None => {
-                        return None;
-                    }
+                    Some(disk) if disk.bound <= POOR * disk.radius => disk,
+                    _ => exact.insert(self.exact(&triple)?).rounded(),
                 }
             };
             let start = (&anchor, &self.passed[..]);
             let mut verify = Verify::certified(self, &gap, start, triple, disk, true);
             verify.run();
             let link = verify.link();
+            let by_form = exact.is_none();
             match verify.verdict(exact.take()) {
                 Verdict::Better(next) => {
                     self.go_back(link);
@@ -575,8 +577,7 @@ impl Search<'_> {
                 }
                 Verdict::Earlier(site) if self.may_be_third(&gap, site) => {
                     let smaller = self.exact(&gap.triple(site))?;
-                    let disk = rounded(&smaller, self.domain.edge(site.index()).start);
-                    end = Proposal { site, disk, position: 0.0 };
+                    end = Proposal { site, disk: smaller.rounded(), position: 0.0 };
                     exact = Some(smaller);
                 }
                 Verdict::Cut(_) | Verdict::Earlier(_) => return None,

@@ -476,8 +476,12 @@ impl<'a> Search<'a> {
             return Some((disk, None));
         }
         let exact = self.exact(triple)?;
-        let disk = rounded(&exact, guess.origin);
-        Some((disk, Some(exact)))
+        Some((exact.rounded(), Some(exact)))
+    }
+
+    /// The exact disk of a triple that was certified.
+    pub fn certified(&self, triple: &[Site; 3], disk: &TouchingDisk) -> ExactDisk {
+        ExactDisk::of_certified(triple.map(|s| self.domain.element(s)), disk)
     }
 
     /// The exact disk of a triple; `None` if there is none, or its radius is zero.
@@ -491,8 +495,7 @@ impl<'a> Search<'a> {
 
     fn proposal_or_exact(&self, gap: &Gap, site: Site) -> Option<Proposal> {
         let triple = gap.triple(site);
-        let exact = self.exact(&triple)?;
-        let disk = rounded(&exact, self.domain.edge(site.index()).start);
+        let disk = self.exact(&triple)?.rounded();
         Some(Proposal { site, disk, position: gap.course(self.domain).position(&disk) })
     }
 
@@ -500,15 +503,6 @@ impl<'a> Search<'a> {
     pub fn touch(&self, disk: &ExactDisk, edge: u32) -> Touch {
         touch(self.domain, disk, edge)
     }
-}
-
-/// Doubles for an exact disk, within two ulp.
-pub(super) fn rounded(exact: &ExactDisk, origin: Point) -> TouchingDisk {
-    let (position, radius) = exact.approximate();
-    let centre = position - origin;
-    let scale = position.x.abs().max(position.y.abs()).max(radius);
-    let size = centre.x.abs().max(centre.y.abs());
-    TouchingDisk { origin, centre, radius, bound: 2.0 * f64::EPSILON * (scale + size) }
 }
 
 /// Contacts strictly between the left and the right governor at the back of an arriving path.

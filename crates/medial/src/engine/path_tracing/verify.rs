@@ -13,6 +13,9 @@ use crate::geom::{Hidden, LEAF, Look, Point, Scope, TouchingDisk};
 
 const U: f64 = f64::EPSILON / 2.0;
 
+/// Doubtful edges up to which a disk is not made more precise for them.
+const FEW: usize = 2;
+
 /// What became of a disk.
 #[derive(Clone, Debug)]
 pub(super) enum Verdict {
@@ -296,12 +299,7 @@ impl<'s, 'a> Verify<'s, 'a> {
         let mut exact = exact;
         let mut contacts = Contacts::new();
         let domain = search.domain;
-        let need = |exact: &mut Option<ExactDisk>| -> bool {
-            if exact.is_none() {
-                *exact = search.exact(&self.triple);
-            }
-            exact.is_some()
-        };
+        let of_certified = || search.certified(&self.triple, &self.certified);
         // The three sites themselves, each touched within its zone.
         for (role, &site) in self.triple.iter().enumerate() {
             if !site.is_edge() {
@@ -321,13 +319,12 @@ impl<'s, 'a> Verify<'s, 'a> {
                 let (start, end) = self.foot(edge);
                 match (start, end) {
                     (Some(s), Some(e)) => (s, e),
-                    _ if need(&mut exact) => {
+                    _ => {
                         let (a, b) = (domain.edge(edge).start, domain.end(edge));
-                        let disk = exact.as_ref();
-                        let ask = |p| disk.map_or(Ordering::Equal, |d| d.along(a, b, p));
+                        let disk = exact.get_or_insert_with(of_certified);
+                        let ask = |p| disk.along(a, b, p);
                         (start.unwrap_or_else(|| ask(a)), end.unwrap_or_else(|| ask(b)))
                     }
-                    _ => return Verdict::OffEdge,
                 }
             };
             if at_start == Ordering::Less || at_end == Ordering::Greater {
@@ -345,8 +342,11 @@ impl<'s, 'a> Verify<'s, 'a> {
                 }
             }
         }
-        if !self.doubtful.is_empty() && !need(&mut exact) {
-            return Verdict::OffEdge;
+        if !self.doubtful.is_empty() {
+            let exact = exact.get_or_insert_with(of_certified);
+            if self.doubtful.len() > FEW {
+                exact.sharpen();
+            }
         }
         // Of nearly equal disks the smallest: each one that cuts the present one replaces it.
         let mut earlier: Option<(Site, ExactDisk)> = None;
