@@ -437,7 +437,7 @@ impl Search<'_> {
                 first(self, Some(b), &[Reach::Within])
             }
             Reach::Level => {
-                let exact = self.exact(&[r, right.site, l]).ok_or(Unsure)?;
+                let exact = self.certified(&[r, right.site, l], a.disk());
                 let (from, to) = (self.domain.edge(left.edge).start, self.domain.end(left.edge));
                 match exact.along(from, to, left.at) {
                     Ordering::Greater => Ok(Some(a)),

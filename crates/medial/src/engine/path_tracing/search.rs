@@ -13,7 +13,7 @@ use super::contacts::Contacts;
 use super::course::Course;
 use super::front::Front;
 use super::rings::HiddenRings;
-use super::touch::{Touch, touch};
+use super::touch::{Seen, Touch, touch};
 use super::verify::{Verdict, Verify};
 use crate::domain::{Corner, Domain, Site};
 use crate::engine::EngineError;
@@ -500,8 +500,8 @@ impl<'a> Search<'a> {
     }
 
     /// What an edge is to an exact disk; the governors themselves are not asked.
-    pub fn touch(&self, disk: &ExactDisk, edge: u32) -> Touch {
-        touch(self.domain, disk, edge)
+    pub fn touch(&self, disk: &ExactDisk, edge: u32, seen: Seen) -> Touch {
+        touch(self.domain, disk, edge, seen)
     }
 }
 

@@ -6,7 +6,7 @@ use super::chain::Passed;
 use super::contacts::{self, Contacts};
 use super::front::scope;
 use super::search::{Gap, Proposal, SLACK, Search, Start};
-use super::touch::Touch;
+use super::touch::{Seen, Touch};
 use crate::domain::{Corner, Edge, Site};
 use crate::geom::predicates::ExactDisk;
 use crate::geom::{Hidden, LEAF, Look, Point, Scope, TouchingDisk};
@@ -316,7 +316,7 @@ impl<'s, 'a> Verify<'s, 'a> {
             } else if corner_at(next) {
                 (Ordering::Greater, Ordering::Equal)
             } else {
-                let (start, end) = self.foot(edge);
+                let Seen { start, end, .. } = self.seen(edge);
                 match (start, end) {
                     (Some(s), Some(e)) => (s, e),
                     _ => {
@@ -354,9 +354,12 @@ impl<'s, 'a> Verify<'s, 'a> {
             if search.watch.is_over() {
                 return Verdict::OffEdge;
             }
-            let disk = earlier.as_ref().map(|e| &e.1).or(exact.as_ref());
-            let Some(disk) = disk else { return Verdict::OffEdge };
-            match search.touch(disk, edge) {
+            let (disk, seen) = match (&earlier, &exact) {
+                (Some((_, disk)), _) => (disk, Seen::default()),
+                (None, Some(disk)) => (disk, self.seen(edge)),
+                (None, None) => return Verdict::OffEdge,
+            };
+            match search.touch(disk, edge, seen) {
                 Touch::Clear => {}
                 Touch::Cut(part) => {
                     let triple = [self.triple[0], part, self.triple[2]];
@@ -381,19 +384,25 @@ impl<'s, 'a> Verify<'s, 'a> {
         Verdict::Clear(contacts)
     }
 
-    /// On which side of an edge's start and end the foot of the certified centre lies, where
-    /// doubles can tell.
-    fn foot(&self, edge: u32) -> (Option<Ordering>, Option<Ordering>) {
+    /// Where the certified centre lies to an edge, as far as doubles can tell.
+    fn seen(&self, edge: u32) -> Seen {
         let domain = self.search.domain;
         let direction = domain.edge(edge).direction;
-        let side = |p: Point| {
+        let from = |p: Point| {
             let a = p - self.certified.origin;
             let q = self.certified.centre - a;
-            let x = direction.dot(q);
-            let doubt = self.doubt(a, q);
+            (q, self.doubt(a, q))
+        };
+        let sign = |x: f64, doubt: f64| {
             (x.abs() > doubt).then_some(if x > 0.0 { Ordering::Greater } else { Ordering::Less })
         };
-        (side(domain.edge(edge).start), side(domain.end(edge)))
+        let (q, doubt) = from(domain.edge(edge).start);
+        let (to_end, doubt_at_end) = from(domain.end(edge));
+        Seen {
+            start: sign(direction.dot(q), doubt),
+            end: sign(direction.dot(to_end), doubt_at_end),
+            front: sign(direction.cross(q), doubt),
+        }
     }
 
     /// Bound on the error of a distance, or a position along an edge, from the certified centre.

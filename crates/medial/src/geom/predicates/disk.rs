@@ -126,14 +126,20 @@ impl ExactDisk {
         {
             return if self.along(a, b, p).is_eq() { Ordering::Equal } else { Ordering::Greater };
         }
+        // Edges seldom tie where coordinates use all their bits.
+        let likely = match element {
+            Element::Corner(_) => true,
+            Element::Edge(a, b) => [a.x, a.y, b.x, b.y].iter().all(|&v| v as i64 as f64 == v),
+        };
         rounded(self.near.side(element))
             .or_else(|| self.fine_now(|fine| fine.side(element)))
-            .or_else(|| special_side(self.elements, element))
+            .or_else(|| likely.then(|| special_side(self.elements, element)).flatten())
             .or_else(|| match element {
                 Element::Corner(p) => on_normal(transition::side_of_corner(&self.elements, p)),
                 Element::Edge(..) => None,
             })
             .or_else(|| self.fine_first(|fine| fine.side(element)))
+            .or_else(|| (!likely).then(|| special_side(self.elements, element)).flatten())
             .unwrap_or_else(|| self.side_in_tower(element))
     }
 
@@ -264,7 +270,10 @@ impl ExactDisk {
     /// zero where the value is.
     #[must_use]
     pub fn approximate(&self) -> (Point, f64) {
-        self.form().map_or_else(|| self.near.values(), Homogeneous::nearest)
+        let fine = if self.form.get().is_none() { self.fine() } else { None };
+        fine.and_then(Fine::nearest)
+            .or_else(|| self.form().map(Homogeneous::nearest))
+            .unwrap_or_else(|| self.near.values())
     }
 }
 

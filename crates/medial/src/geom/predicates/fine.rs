@@ -120,6 +120,8 @@ impl Fine {
             }
             let sides = [difference(&r2, &r3).norm(), le, lb].map(|l| l + 4.0 * ROUNDING);
             let open = |r: &Residual| r.rest.value().abs() + r.error;
+            // What is left is rounding, which no step makes less.
+            let last = [&r1, &r2, &r3].iter().all(|r| r.rest.value().abs() <= r.error);
             let factor = 2.0 / d;
             let mut error =
                 factor * (sides[0] * open(&r1) + sides[1] * open(&r2) + sides[2] * open(&r3));
@@ -130,7 +132,7 @@ impl Fine {
             }
             let error = error * (1.0 + 64.0 * U);
             if error < disk.radius.value() && best.is_none_or(|known| error < known.error) {
-                let done = best.is_some_and(|known| 2.0 * error > known.error);
+                let done = last || best.is_some_and(|known| 2.0 * error > known.error);
                 best = Some(Self { error, ..disk });
                 if done {
                     return best;
@@ -173,7 +175,8 @@ impl Fine {
             }
             let bound = bound * (1.0 + 64.0 * U);
             if bound < r && best.is_none_or(|known| bound < known.error) {
-                let done = best.is_some_and(|known| 2.0 * bound > known.error);
+                let done = rest.value().abs() <= error
+                    || best.is_some_and(|known| 2.0 * bound > known.error);
                 best = Some(Self { error: bound, ..disk });
                 if done {
                     return best;
@@ -217,6 +220,17 @@ impl Fine {
         let size = centre.x.abs() + centre.y.abs() + radius.abs();
         let error = (self.error + U * size) * (1.0 + 8.0 * U);
         Near { origin: self.origin, centre, radius, error }
+    }
+
+    /// Centre and radius, each coordinate rounded to the nearest double, if that is certain.
+    pub(super) fn nearest(&self) -> Option<(Point, f64)> {
+        let coordinate = |origin: f64, local: Double| {
+            let sum = Double::from(origin) + local;
+            nearest(sum, self.error + ROUNDING * (origin.abs() + local.value().abs()))
+        };
+        let x = coordinate(self.origin.x, self.centre.x)?;
+        let y = coordinate(self.origin.y, self.centre.y)?;
+        Some((Point::new(x, y), nearest(self.radius, self.error)?))
     }
 
     /// The centre relative to a point, and a bound on the error of its distances and coordinates.
@@ -268,4 +282,13 @@ impl Fine {
 fn unit(d: Pair) -> Option<Pair> {
     let length = d.dot(d).sqrt();
     (length.value() > 0.0).then(|| d.times(Double::from(1.0) / length))
+}
+
+/// The double nearest to all numbers within `error` of a value, if there is one.
+fn nearest(value: Double, error: f64) -> Option<f64> {
+    let high = value.value();
+    let low = (value - high.into()).value();
+    // Rounding is monotonic.
+    let error = error * (1.0 + 4.0 * U) + U * low.abs();
+    (high + (low + error) == high && high + (low - error) == high).then_some(high)
 }
