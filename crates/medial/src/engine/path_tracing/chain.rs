@@ -125,7 +125,7 @@ impl Search<'_> {
             if s.is_edge() { self.domain.edge(s.index()).length / 2.0 } else { f64::INFINITY }
         });
         let least = sizes[0].min(sizes[1]);
-        let mut known = if least.is_finite() { start.radius.max(least) } else { start.radius };
+        let known = if least.is_finite() { start.radius.max(least) } else { start.radius };
         loop {
             if self.runs_into_corner(r, l) {
                 self.link = (r, l);
@@ -167,7 +167,8 @@ impl Search<'_> {
                 let (Event::Leave { disk, site } | Event::Meet { disk, site }) = event;
                 Proposal { site, disk, position: gap.course(self.domain).position(&disk) }
             });
-            known = known.max(here.radius);
+            // Beyond a transition the edges at the start tell nothing.
+            let known = if self.passed.is_empty() { known } else { here.radius };
             self.link = (r, l);
             if radius > LEAP * known {
                 end = self.approach(start, &gap, end, known);
