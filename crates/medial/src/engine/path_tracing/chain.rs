@@ -137,6 +137,7 @@ impl Search<'_> {
             if event.is_err() && self.passed.is_empty() {
                 return None;
             }
+            let endless = matches!(event, Ok(None));
             let event = event.unwrap_or(None);
             let cut = |disk: &TouchingDisk| {
                 self.behind.iter().any(|&e| {
@@ -144,7 +145,16 @@ impl Search<'_> {
                     cuts_clearly(disk, edge.start, self.domain.end(e), edge)
                 })
             };
-            if self.passed.last().is_some_and(|last| event.is_none() || cut(&last.disk)) {
+            let doubted = self.passed.last().is_some_and(|last| event.is_none() || cut(&last.disk));
+            let crossing = |last: &Passed| last.n_contacts == 4 && !cut(&last.disk);
+            if endless && self.passed.last().is_some_and(crossing) {
+                // Out of a corridor whose sides end at once: what lies across it comes next.
+                self.link = (r, l);
+                if let Some(end) = self.approach(start, &gap, None, here.radius) {
+                    return self.settle_chain(start, front, end);
+                }
+            }
+            if doubted {
                 // The last transition passed is none: something cuts its disk.
                 if let Some(last) = self.passed.pop() {
                     self.link = (last.right, last.left);
