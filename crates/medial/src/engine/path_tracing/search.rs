@@ -108,8 +108,9 @@ const MOST_TRIES: usize = 100_000;
 /// Sites that the last resort weighs before it takes in all there are.
 const WIDEST: usize = 64;
 
-/// Visits after which the tree may be sorted anew, and nodes a visit from which it is.
+/// Visits after which the tree may be rounded off or sorted anew, and nodes a visit from which it is.
 const VISITS: u64 = 500;
+const MANY: u64 = 32;
 const NODES: u64 = 100;
 
 /// Tries before only exact arithmetic proposes.
@@ -142,6 +143,8 @@ pub(super) struct Search<'a> {
     /// The tree sorted anew, once it is, and whether this search uses it.
     sorted: Arc<OnceLock<Arc<CapsuleTree>>>,
     mended: bool,
+    /// Whether the tree was rounded off.
+    rounded: bool,
     /// Nodes that visits went through, and visits.
     work: Cell<(u64, u64)>,
     /// No disk inside the polygon has a larger radius.
@@ -178,6 +181,7 @@ impl<'a> Search<'a> {
             domain,
             sorted,
             mended: false,
+            rounded: false,
             work: Cell::new((0, 0)),
             largest: (bounds.max - bounds.min).norm(),
             tree,
@@ -193,10 +197,20 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Sorts the tree anew if visits have gone through too many nodes of it.
+    /// Rounds the tree off if visits go through many nodes of it, and sorts it anew if there are too
+    /// many then.
     pub fn mend_tree(&mut self) {
         let (nodes, visits) = self.work.get();
-        if self.mended || visits < VISITS || nodes < NODES * visits {
+        if self.mended || visits < VISITS || nodes < MANY * visits {
+            return;
+        }
+        if !self.rounded {
+            self.rounded = true;
+            self.work.set((0, 0));
+            self.tree.round_off(|k| (self.domain.edge(k).start, self.domain.end(k)));
+            return;
+        }
+        if nodes < NODES * visits {
             return;
         }
         self.mended = true;
