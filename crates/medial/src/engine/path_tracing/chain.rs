@@ -545,7 +545,8 @@ impl Search<'_> {
                 let governors = self.domain.governors(triple);
                 match TouchingDisk::touching(&governors) {
                     Some(disk) if disk.bound <= POOR * disk.radius => disk,
-                    _ => exact.insert(self.exact(&triple)?).rounded(),
+                    Some(disk) => exact.insert(self.certified(&triple, &disk)).rounded(),
+                    None => exact.insert(self.exact(&triple)?).rounded(),
                 }
             };
             let start = (&anchor, &self.passed[..]);
