@@ -164,10 +164,10 @@ impl Fine {
             let between = n.minus(normal).value().norm();
             let g = between * between / 2.0;
             let least = g * (1.0 - 16.0 * U) - 8.0 * ROUNDING * between;
-            if least.is_nan() || least <= 0.0 {
+            let r = disk.radius.value();
+            if least.is_nan() || least <= 0.0 || r.is_nan() || r <= 0.0 {
                 return best;
             }
-            let r = disk.radius.value();
             let rounding = 2.0 * ROUNDING * r;
             let mut bound = 2.0 * (rest.value().abs() + error + rounding) / least + rounding;
             if let Local::Corner(_) = other {
@@ -210,7 +210,7 @@ impl Fine {
             }
             Local::Edge(_, normal) => (normal, q.dot(normal)),
         };
-        let size = q.size() + self.centre.size() + p.size() + self.radius.value();
+        let size = q.size() + self.centre.size() + p.size() + self.radius.value().abs();
         Residual { normal, rest: distance - self.radius, error: ROUNDING * size + SHORT }
     }
 
