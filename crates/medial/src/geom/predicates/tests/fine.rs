@@ -1,5 +1,6 @@
 //! Pairs of doubles against the tower.
 
+use super::random::Random;
 use crate::geom::Point;
 use crate::geom::predicates::construct::{construct, corners_first};
 use crate::geom::predicates::fine::Fine;
@@ -25,6 +26,49 @@ const RING: [(f64, f64); 16] = [
     (9.0, 15.0),
     (6.0, 18.0),
 ];
+
+#[test]
+fn disks_of_corners_moved_by_an_ulp_answer_as_the_tower_does() {
+    let mut random = Random::new(47);
+    let mut tried = 0;
+    for _ in 0..120 {
+        let mut coordinate = || {
+            let value = random.below(9) as f64 - 3.0;
+            let hair = [0, 0, 1, -1][random.below(4) as usize];
+            if value == 0.0 {
+                value
+            } else {
+                f64::from_bits(value.to_bits().wrapping_add_signed(hair))
+            }
+        };
+        let corners: Vec<Point> = (0..8).map(|_| Point::new(coordinate(), coordinate())).collect();
+        let all: Vec<Element> = (0..8)
+            .filter(|&k| corners[k] != corners[(k + 1) % 8])
+            .flat_map(|k| {
+                [Element::Corner(corners[k]), Element::Edge(corners[k], corners[(k + 1) % 8])]
+            })
+            .collect();
+        for _ in 0..200 {
+            let mut pick = || all[random.below(all.len() as u64) as usize];
+            let elements = corners_first([pick(), pick(), pick()]);
+            let exists = construct(&elements);
+            let disk = ExactDisk::new(elements);
+            assert_eq!(disk.is_some(), exists.is_some(), "{elements:?}");
+            let (Some(disk), Some(form)) = (disk, exists) else { continue };
+            assert_eq!(disk.approximate(), form.nearest(), "{elements:?}");
+            tried += 1;
+            for &t in &all {
+                assert_eq!(disk.side(t), disk.side_in_tower(t), "{elements:?} {t:?}");
+                if let Element::Edge(p, q) = t {
+                    assert_eq!(disk.front(p, q), disk.front_in_tower(p, q), "{elements:?} {t:?}");
+                    let along = disk.along_in_tower(p, q, q);
+                    assert_eq!(disk.along(p, q, q), along, "{elements:?} {t:?}");
+                }
+            }
+        }
+    }
+    assert!(tried > 1000, "{tried}");
+}
 
 #[test]
 fn pairs_of_doubles_answer_as_the_tower_does_within_an_ulp_of_ties() {
