@@ -14,11 +14,15 @@
 //! 4. A visit takes the children near what the visitor names first, then those at both ends, then by
 //!    halves: so a visitor that looks for less the more it has met soon does, whichever way the boundary
 //!    leads.
+//! 5. Where that leaves too much, runs are bounded by circles as well ([`super::rounds`]).
 //!
 //! # Departures
 //! None.
 
+use std::sync::OnceLock;
+
 use super::lanes::{FAN, Lanes, Node, Query, VANISHING, Wide};
+use super::rounds::Round;
 use super::{Point, Rect, hilbert};
 
 /// Edges of a leaf, at most.
@@ -103,6 +107,8 @@ pub struct CapsuleTree {
     /// Where each level of `nodes` starts.
     levels: Vec<u32>,
     wide: Option<Wide>,
+    /// Circles for the runs below each level, once somebody asks for them.
+    rounds: OnceLock<Vec<Vec<Round>>>,
 }
 
 impl CapsuleTree {
@@ -173,7 +179,28 @@ impl CapsuleTree {
             runs = above;
         }
         let wide = Wide::detect();
-        Self { order, base, n_edges, scale, slack, bounds, leaves, nodes, levels, wide }
+        let rounds = OnceLock::new();
+        Self { order, base, n_edges, scale, slack, bounds, leaves, nodes, levels, wide, rounds }
+    }
+
+    /// Bounds runs by circles as well, for boundaries that follow the rims of the disks looked into;
+    /// `ends` gives the two ends of an edge.
+    pub fn round_off(&self, ends: impl Fn(u32) -> (Point, Point)) {
+        if self.order.is_some() {
+            return;
+        }
+        self.rounds.get_or_init(|| {
+            let sizes = (1..=self.levels.len() as u32).map(|level| 1_u32 << (3 * level));
+            let of = |size: u32| {
+                let runs = (0..self.n_edges).step_by(size as usize);
+                let run = |first: u32| {
+                    let end = (first + size).min(self.n_edges);
+                    Round::around((self.base + first..self.base + end).map(&ends))
+                };
+                runs.map(run).collect()
+            };
+            sizes.map(of).collect()
+        });
     }
 
     /// The numbers of the edges.
@@ -235,6 +262,10 @@ impl CapsuleTree {
                 let node = &self.nodes[(self.levels[level as usize - 1] + number) as usize];
                 mask &= node.lanes.within(&aim.query, &node.width, self.wide);
                 mask &= 0xff;
+                if let Some(rounds) = self.rounds.get() {
+                    mask &=
+                        rounded(&rounds[level as usize - 1][first as usize..], look.scope(), mask);
+                }
                 if mask != 0 {
                     let mut child = (near >> (3 * level)).wrapping_sub(first);
                     if child >= FAN as u32 || mask >> child & 1 == 0 {
@@ -287,6 +318,18 @@ impl CapsuleTree {
             }
         }
     }
+}
+
+/// A bit for each of the children asked for that a circle does not show to be beyond a disk.
+#[inline(never)]
+fn rounded(rounds: &[Round], scope: &Scope, asked: u32) -> u32 {
+    let mut mask = asked;
+    for (k, round) in rounds.iter().take(FAN).enumerate() {
+        if asked >> k & 1 != 0 && round.is_beyond(scope.centre, scope.reach) {
+            mask &= !(1 << k);
+        }
+    }
+    mask
 }
 
 /// What is looked for now.

@@ -9,6 +9,7 @@ mod lanes;
 mod orient;
 mod point;
 pub mod predicates;
+mod rounds;
 
 pub use bounds_tree::{BoundsTree, Rect, Visitor};
 pub use capsule_tree::{CapsuleTree, Hidden, LEAF, Look, Scope};

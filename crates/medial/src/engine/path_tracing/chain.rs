@@ -23,7 +23,7 @@ use std::cmp::Ordering;
 use super::contacts::follows;
 use super::front::Front;
 use super::rings::{Link, Round};
-use super::search::{Found, Gap, Proposal, SLACK, Search, Start, contact_behind, rounded};
+use super::search::{Found, Gap, Proposal, SLACK, Search, Start, contact_behind};
 use super::verify::{Verdict, Verify, cuts_clearly};
 use crate::domain::{Corner, Domain, Edge, Site};
 use crate::geom::{Point, TouchingDisk, Unsure};
@@ -45,6 +45,10 @@ const FEW: usize = 3;
 
 /// Way, in lengths of the edges there, beyond which the next elements are tried as well.
 const FAR: f64 = 3.0;
+
+/// Bound of a disk, as a share of its radius, above which exact arithmetic rounds it: what it leaves in
+/// doubt would be asked of exact arithmetic one by one.
+const POOR: f64 = 1e-9;
 
 /// Disks looked into before the path is left to exact arithmetic.
 const MOST_ROUNDS: usize = 64;
@@ -124,7 +128,7 @@ impl Search<'_> {
             if s.is_edge() { self.domain.edge(s.index()).length / 2.0 } else { f64::INFINITY }
         });
         let least = sizes[0].min(sizes[1]);
-        let mut known = if least.is_finite() { start.radius.max(least) } else { start.radius };
+        let known = if least.is_finite() { start.radius.max(least) } else { start.radius };
         loop {
             if self.runs_into_corner(r, l) {
                 return self.ends_in_corner(r, l, start);
@@ -134,6 +138,7 @@ impl Search<'_> {
             if event.is_err() && self.passed.is_empty() {
                 return None;
             }
+            let endless = matches!(event, Ok(None));
             let event = event.unwrap_or(None);
             let cut = |disk: &TouchingDisk| {
                 self.behind.iter().any(|&e| {
@@ -141,7 +146,16 @@ impl Search<'_> {
                     cuts_clearly(disk, edge.start, self.domain.end(e), edge)
                 })
             };
-            if self.passed.last().is_some_and(|last| event.is_none() || cut(&last.disk)) {
+            let doubted = self.passed.last().is_some_and(|last| event.is_none() || cut(&last.disk));
+            let crossing = |last: &Passed| last.n_contacts == 4 && !cut(&last.disk);
+            if endless && self.passed.last().is_some_and(crossing) {
+                // Out of a corridor whose sides end at once: what lies across it comes next.
+                self.link = (r, l);
+                if let Some(end) = self.approach(start, &gap, None, here.radius) {
+                    return self.settle_chain(start, front, end);
+                }
+            }
+            if doubted {
                 // The last transition passed is none: something cuts its disk.
                 if let Some(last) = self.passed.pop() {
                     self.link = (last.right, last.left);
@@ -164,7 +178,8 @@ impl Search<'_> {
                 let (Event::Leave { disk, site } | Event::Meet { disk, site }) = event;
                 Proposal { site, disk, position: gap.course(self.domain).position(&disk) }
             });
-            known = known.max(here.radius);
+            // Beyond a transition the edges at the start tell nothing.
+            let known = if self.passed.is_empty() { known } else { here.radius };
             self.link = (r, l);
             if radius > LEAP * known {
                 end = self.approach(start, &gap, end, known);
@@ -442,7 +457,7 @@ impl Search<'_> {
                 first(self, Some(b), &[Reach::Within])
             }
             Reach::Level => {
-                let exact = self.exact(&[r, right.site, l]).ok_or(Unsure)?;
+                let exact = self.certified(&[r, right.site, l], a.disk());
                 let (from, to) = (self.domain.edge(left.edge).start, self.domain.end(left.edge));
                 match exact.along(from, to, left.at) {
                     Ordering::Greater => Ok(Some(a)),
@@ -533,22 +548,21 @@ impl Search<'_> {
             let here = self.passed.last().map_or(anchor, |p| Start::at(&p.disk));
             let gap = Gap::new(right, left, here, front);
             let triple = gap.triple(end.site);
-            let by_form = exact.is_none();
             let disk = if end.disk.bound.is_finite() {
                 end.disk
             } else {
                 let governors = self.domain.governors(triple);
                 match TouchingDisk::touching(&governors) {
-                    Some(d) => d,
-                    None => {
-                        return None;
-                    }
+                    Some(disk) if disk.bound <= POOR * disk.radius => disk,
+                    Some(disk) => exact.insert(self.certified(&triple, &disk)).rounded(),
+                    None => exact.insert(self.exact(&triple)?).rounded(),
                 }
             };
             let start = (&anchor, &self.passed[..]);
             let mut verify = Verify::certified(self, &gap, start, triple, disk, true);
             verify.run();
             let link = verify.link();
+            let by_form = exact.is_none();
             match verify.verdict(exact.take()) {
                 Verdict::Better(next) => {
                     self.go_back(link);
@@ -584,8 +598,7 @@ impl Search<'_> {
                 }
                 Verdict::Earlier(site) if self.may_be_third(&gap, site) => {
                     let smaller = self.exact(&gap.triple(site))?;
-                    let disk = rounded(&smaller, self.domain.edge(site.index()).start);
-                    end = Proposal { site, disk, position: 0.0 };
+                    end = Proposal { site, disk: smaller.rounded(), position: 0.0 };
                     exact = Some(smaller);
                 }
                 Verdict::Cut(_) | Verdict::Earlier(_) => return None,

@@ -13,7 +13,7 @@ use super::contacts::Contacts;
 use super::course::Course;
 use super::front::Front;
 use super::rings::HiddenRings;
-use super::touch::{Touch, touch};
+use super::touch::{Seen, Touch, touch};
 use super::verify::{Verdict, Verify};
 use crate::domain::{Corner, Domain, Site};
 use crate::engine::EngineError;
@@ -108,8 +108,9 @@ const MOST_TRIES: usize = 100_000;
 /// Sites that the last resort weighs before it takes in all there are.
 const WIDEST: usize = 64;
 
-/// Visits after which the tree may be sorted anew, and nodes a visit from which it is.
+/// Visits after which the tree may be rounded off or sorted anew, and nodes a visit from which it is.
 const VISITS: u64 = 500;
+const MANY: u64 = 32;
 const NODES: u64 = 100;
 
 /// Tries before only exact arithmetic proposes.
@@ -142,6 +143,8 @@ pub(super) struct Search<'a> {
     /// The tree sorted anew, once it is, and whether this search uses it.
     sorted: Arc<OnceLock<Arc<CapsuleTree>>>,
     mended: bool,
+    /// Whether the tree was rounded off.
+    rounded: bool,
     /// Nodes that visits went through, and visits.
     work: Cell<(u64, u64)>,
     /// No disk inside the polygon has a larger radius.
@@ -178,6 +181,7 @@ impl<'a> Search<'a> {
             domain,
             sorted,
             mended: false,
+            rounded: false,
             work: Cell::new((0, 0)),
             largest: (bounds.max - bounds.min).norm(),
             tree,
@@ -193,10 +197,20 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Sorts the tree anew if visits have gone through too many nodes of it.
+    /// Rounds the tree off if visits go through many nodes of it, and sorts it anew if there are too
+    /// many then.
     pub fn mend_tree(&mut self) {
         let (nodes, visits) = self.work.get();
-        if self.mended || visits < VISITS || nodes < NODES * visits {
+        if self.mended || visits < VISITS || nodes < MANY * visits {
+            return;
+        }
+        if !self.rounded {
+            self.rounded = true;
+            self.work.set((0, 0));
+            self.tree.round_off(|k| (self.domain.edge(k).start, self.domain.end(k)));
+            return;
+        }
+        if nodes < NODES * visits {
             return;
         }
         self.mended = true;
@@ -476,8 +490,12 @@ impl<'a> Search<'a> {
             return Some((disk, None));
         }
         let exact = self.exact(triple)?;
-        let disk = rounded(&exact, guess.origin);
-        Some((disk, Some(exact)))
+        Some((exact.rounded(), Some(exact)))
+    }
+
+    /// The exact disk of a triple that was certified.
+    pub fn certified(&self, triple: &[Site; 3], disk: &TouchingDisk) -> ExactDisk {
+        ExactDisk::of_certified(triple.map(|s| self.domain.element(s)), disk)
     }
 
     /// The exact disk of a triple; `None` if there is none, or its radius is zero.
@@ -491,24 +509,14 @@ impl<'a> Search<'a> {
 
     fn proposal_or_exact(&self, gap: &Gap, site: Site) -> Option<Proposal> {
         let triple = gap.triple(site);
-        let exact = self.exact(&triple)?;
-        let disk = rounded(&exact, self.domain.edge(site.index()).start);
+        let disk = self.exact(&triple)?.rounded();
         Some(Proposal { site, disk, position: gap.course(self.domain).position(&disk) })
     }
 
     /// What an edge is to an exact disk; the governors themselves are not asked.
-    pub fn touch(&self, disk: &ExactDisk, edge: u32) -> Touch {
-        touch(self.domain, disk, edge)
+    pub fn touch(&self, disk: &ExactDisk, edge: u32, seen: Seen) -> Touch {
+        touch(self.domain, disk, edge, seen)
     }
-}
-
-/// Doubles for an exact disk, within two ulp.
-pub(super) fn rounded(exact: &ExactDisk, origin: Point) -> TouchingDisk {
-    let (position, radius) = exact.approximate();
-    let centre = position - origin;
-    let scale = position.x.abs().max(position.y.abs()).max(radius);
-    let size = centre.x.abs().max(centre.y.abs());
-    TouchingDisk { origin, centre, radius, bound: 2.0 * f64::EPSILON * (scale + size) }
 }
 
 /// Contacts strictly between the left and the right governor at the back of an arriving path.

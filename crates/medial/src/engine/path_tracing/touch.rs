@@ -1,4 +1,4 @@
-use std::cmp::Ordering::{Equal, Greater, Less};
+use std::cmp::Ordering::{self, Equal, Greater, Less};
 
 use crate::domain::{Corner, Domain, Site};
 use crate::geom::Point;
@@ -21,18 +21,29 @@ pub(super) enum Touch {
     },
 }
 
+/// Where a centre lies to an edge, as far as doubles can tell.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Seen {
+    /// Along the edge from its start.
+    pub start: Option<Ordering>,
+    /// Along the edge from its end.
+    pub end: Option<Ordering>,
+    /// In front of it.
+    pub front: Option<Ordering>,
+}
+
 /// Decides exactly what edge number `edge` and its two corners are to a disk.
-pub(super) fn touch(domain: &Domain, disk: &ExactDisk, edge: u32) -> Touch {
+pub(super) fn touch(domain: &Domain, disk: &ExactDisk, edge: u32, seen: Seen) -> Touch {
     let (a, b) = (domain.edge(edge).start, domain.end(edge));
-    let from_start = disk.along(a, b, a);
+    let from_start = seen.start.unwrap_or_else(|| disk.along(a, b, a));
     if from_start != Greater {
         return touch_end(domain, disk, edge, a, edge, from_start == Equal);
     }
-    let from_end = disk.along(a, b, b);
+    let from_end = seen.end.unwrap_or_else(|| disk.along(a, b, b));
     if from_end != Less {
         return touch_end(domain, disk, edge, b, domain.edge(edge).next, from_end == Equal);
     }
-    match disk.front(a, b) {
+    match seen.front.unwrap_or_else(|| disk.front(a, b)) {
         // From behind nothing is touched, but a disk far too large may hold the edge.
         Less => match disk.side(Element::Edge(b, a)) {
             Less => Touch::Cut(Site::edge(edge)),

@@ -6,12 +6,15 @@ use super::chain::Passed;
 use super::contacts::{self, Contacts};
 use super::front::scope;
 use super::search::{Gap, Proposal, SLACK, Search, Start};
-use super::touch::Touch;
+use super::touch::{Seen, Touch};
 use crate::domain::{Corner, Edge, Site};
 use crate::geom::predicates::ExactDisk;
 use crate::geom::{Hidden, LEAF, Look, Point, Scope, TouchingDisk};
 
 const U: f64 = f64::EPSILON / 2.0;
+
+/// Doubtful edges up to which a disk is not made more precise for them.
+const FEW: usize = 2;
 
 /// What became of a disk.
 #[derive(Clone, Debug)]
@@ -296,12 +299,7 @@ impl<'s, 'a> Verify<'s, 'a> {
         let mut exact = exact;
         let mut contacts = Contacts::new();
         let domain = search.domain;
-        let need = |exact: &mut Option<ExactDisk>| -> bool {
-            if exact.is_none() {
-                *exact = search.exact(&self.triple);
-            }
-            exact.is_some()
-        };
+        let of_certified = || search.certified(&self.triple, &self.certified);
         // The three sites themselves, each touched within its zone.
         for (role, &site) in self.triple.iter().enumerate() {
             if !site.is_edge() {
@@ -318,16 +316,15 @@ impl<'s, 'a> Verify<'s, 'a> {
             } else if corner_at(next) {
                 (Ordering::Greater, Ordering::Equal)
             } else {
-                let (start, end) = self.foot(edge);
+                let Seen { start, end, .. } = self.seen(edge);
                 match (start, end) {
                     (Some(s), Some(e)) => (s, e),
-                    _ if need(&mut exact) => {
+                    _ => {
                         let (a, b) = (domain.edge(edge).start, domain.end(edge));
-                        let disk = exact.as_ref();
-                        let ask = |p| disk.map_or(Ordering::Equal, |d| d.along(a, b, p));
+                        let disk = exact.get_or_insert_with(of_certified);
+                        let ask = |p| disk.along(a, b, p);
                         (start.unwrap_or_else(|| ask(a)), end.unwrap_or_else(|| ask(b)))
                     }
-                    _ => return Verdict::OffEdge,
                 }
             };
             if at_start == Ordering::Less || at_end == Ordering::Greater {
@@ -345,8 +342,11 @@ impl<'s, 'a> Verify<'s, 'a> {
                 }
             }
         }
-        if !self.doubtful.is_empty() && !need(&mut exact) {
-            return Verdict::OffEdge;
+        if !self.doubtful.is_empty() {
+            let exact = exact.get_or_insert_with(of_certified);
+            if self.doubtful.len() > FEW {
+                exact.sharpen();
+            }
         }
         // Of nearly equal disks the smallest: each one that cuts the present one replaces it.
         let mut earlier: Option<(Site, ExactDisk)> = None;
@@ -354,9 +354,12 @@ impl<'s, 'a> Verify<'s, 'a> {
             if search.watch.is_over() {
                 return Verdict::OffEdge;
             }
-            let disk = earlier.as_ref().map(|e| &e.1).or(exact.as_ref());
-            let Some(disk) = disk else { return Verdict::OffEdge };
-            match search.touch(disk, edge) {
+            let (disk, seen) = match (&earlier, &exact) {
+                (Some((_, disk)), _) => (disk, Seen::default()),
+                (None, Some(disk)) => (disk, self.seen(edge)),
+                (None, None) => return Verdict::OffEdge,
+            };
+            match search.touch(disk, edge, seen) {
                 Touch::Clear => {}
                 Touch::Cut(part) => {
                     let triple = [self.triple[0], part, self.triple[2]];
@@ -381,19 +384,25 @@ impl<'s, 'a> Verify<'s, 'a> {
         Verdict::Clear(contacts)
     }
 
-    /// On which side of an edge's start and end the foot of the certified centre lies, where
-    /// doubles can tell.
-    fn foot(&self, edge: u32) -> (Option<Ordering>, Option<Ordering>) {
+    /// Where the certified centre lies to an edge, as far as doubles can tell.
+    fn seen(&self, edge: u32) -> Seen {
         let domain = self.search.domain;
         let direction = domain.edge(edge).direction;
-        let side = |p: Point| {
+        let from = |p: Point| {
             let a = p - self.certified.origin;
             let q = self.certified.centre - a;
-            let x = direction.dot(q);
-            let doubt = self.doubt(a, q);
+            (q, self.doubt(a, q))
+        };
+        let sign = |x: f64, doubt: f64| {
             (x.abs() > doubt).then_some(if x > 0.0 { Ordering::Greater } else { Ordering::Less })
         };
-        (side(domain.edge(edge).start), side(domain.end(edge)))
+        let (q, doubt) = from(domain.edge(edge).start);
+        let (to_end, doubt_at_end) = from(domain.end(edge));
+        Seen {
+            start: sign(direction.dot(q), doubt),
+            end: sign(direction.dot(to_end), doubt_at_end),
+            front: sign(direction.cross(q), doubt),
+        }
     }
 
     /// Bound on the error of a distance, or a position along an edge, from the certified centre.

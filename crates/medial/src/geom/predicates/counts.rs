@@ -17,6 +17,8 @@ pub struct Counts {
     pub transitions: u64,
     /// Which of two governors leaves a path first.
     pub two_ends: u64,
+    /// Pairs of doubles with a bound on their error.
+    pub fine: u64,
     /// Exact disks built.
     pub disks: u64,
     /// The tower of roots, for a disk already built.
@@ -25,7 +27,7 @@ pub struct Counts {
 
 thread_local! {
     static COUNTS: Cell<Counts> = const {
-        Cell::new(Counts { structure: 0, rounded: 0, corners: 0, edges: 0, transitions: 0, two_ends: 0, disks: 0, tower: 0 })
+        Cell::new(Counts { structure: 0, rounded: 0, corners: 0, edges: 0, transitions: 0, two_ends: 0, fine: 0, disks: 0, tower: 0 })
     };
 }
 

@@ -6,12 +6,16 @@ use std::sync::OnceLock;
 use super::Element;
 use super::construct::{construct, corners_first};
 use super::counts::count;
+use super::fine::Fine;
 use super::grid::Vector;
 use super::homogeneous::Homogeneous;
 use super::near::Near;
 use super::stages::special_side;
 use super::transition;
-use crate::geom::Point;
+use crate::geom::{Point, TouchingDisk};
+
+/// Error of a disk in doubles, as a share of its radius, up to which it is taken as it is.
+const SHARP: f64 = 64.0 * f64::EPSILON;
 
 /// The disk that touches three elements, its contacts counterclockwise in the order given.
 ///
@@ -31,6 +35,8 @@ pub struct ExactDisk {
     elements: [Element; 3],
     /// The same disk in doubles.
     near: Near,
+    /// The same disk in pairs of doubles, once a near tie needs them and if they can prove it.
+    fine: OnceLock<Option<Fine>>,
     /// The same disk in integers, once a question needs them.
     form: OnceLock<Option<Homogeneous>>,
 }
@@ -48,15 +54,58 @@ impl ExactDisk {
     #[must_use]
     pub fn new(elements: [Element; 3]) -> Option<Self> {
         let elements = corners_first(elements);
-        let (near, form) = match Near::certified(&elements) {
-            Some(near) => (near, OnceLock::new()),
-            None => {
-                let form = construct(&elements)?;
-                (Near::new(&form), OnceLock::from(Some(form)))
-            }
-        };
+        let found = Near::found(&elements);
+        if let Some(near) = found.filter(Near::is_certain) {
+            return Some(Self::known(elements, near));
+        }
+        if let Some(fine) = found.and_then(|found| Fine::new(&elements, &found)) {
+            return Some(Self { fine: Some(fine).into(), ..Self::known(elements, fine.near()) });
+        }
+        let form = construct(&elements)?;
+        let near = Near::new(&form);
+        Some(Self { form: Some(form).into(), ..Self::known(elements, near) })
+    }
+
+    /// The disk of three elements that was certified in doubles.
+    pub(crate) fn of_certified(elements: [Element; 3], disk: &TouchingDisk) -> Self {
+        Self::known(corners_first(elements), Near::from(disk))
+    }
+
+    fn known(elements: [Element; 3], near: Near) -> Self {
         count(|counts| counts.disks += 1);
-        Some(Self { elements, near, form })
+        Self { elements, near, fine: OnceLock::new(), form: OnceLock::new() }
+    }
+
+    /// Makes the disk as precise as doubles hold, for many questions.
+    pub(crate) fn sharpen(&mut self) {
+        if let Some(fine) = self.fine() {
+            let near = fine.near();
+            if near.error < self.near.error {
+                self.near = near;
+            }
+        }
+    }
+
+    /// The disk in doubles, within a few ulp.
+    pub(crate) fn rounded(&self) -> TouchingDisk {
+        let of = |near: &Near| TouchingDisk {
+            origin: near.origin,
+            centre: near.centre,
+            radius: near.radius,
+            bound: near.error,
+        };
+        if self.near.error <= SHARP * self.near.radius {
+            return of(&self.near);
+        }
+        if let Some(near) = self.fine().map(Fine::near).filter(|n| n.error <= SHARP * n.radius) {
+            return of(&near);
+        }
+        let (position, radius) = self.approximate();
+        let origin = self.near.origin;
+        let centre = position - origin;
+        let scale = position.x.abs().max(position.y.abs()).max(radius);
+        let size = centre.x.abs().max(centre.y.abs());
+        TouchingDisk { origin, centre, radius, bound: 2.0 * f64::EPSILON * (scale + size) }
     }
 
     /// Orders the distance of the centre from a corner, or its signed distance from the supporting
@@ -77,12 +126,20 @@ impl ExactDisk {
         {
             return if self.along(a, b, p).is_eq() { Ordering::Equal } else { Ordering::Greater };
         }
+        // Edges seldom tie where coordinates use all their bits.
+        let likely = match element {
+            Element::Corner(_) => true,
+            Element::Edge(a, b) => [a.x, a.y, b.x, b.y].iter().all(|&v| v as i64 as f64 == v),
+        };
         rounded(self.near.side(element))
-            .or_else(|| special_side(self.elements, element))
+            .or_else(|| self.fine_now(|fine| fine.side(element)))
+            .or_else(|| likely.then(|| special_side(self.elements, element)).flatten())
             .or_else(|| match element {
                 Element::Corner(p) => on_normal(transition::side_of_corner(&self.elements, p)),
                 Element::Edge(..) => None,
             })
+            .or_else(|| self.fine_first(|fine| fine.side(element)))
+            .or_else(|| (!likely).then(|| special_side(self.elements, element)).flatten())
             .unwrap_or_else(|| self.side_in_tower(element))
     }
 
@@ -109,6 +166,25 @@ impl ExactDisk {
         self.form().map_or(Ordering::Equal, question)
     }
 
+    fn fine(&self) -> Option<&Fine> {
+        self.fine.get_or_init(|| Fine::new(&self.elements, &self.near)).as_ref()
+    }
+
+    /// An answer of the pairs of doubles, if they are there already.
+    fn fine_now(&self, ask: impl FnOnce(&Fine) -> Option<Ordering>) -> Option<Ordering> {
+        let answer = ask(self.fine.get()?.as_ref()?);
+        answer.inspect(|_| count(|counts| counts.fine += 1))
+    }
+
+    /// An answer of the pairs of doubles, if they were not asked yet.
+    fn fine_first(&self, ask: impl FnOnce(&Fine) -> Option<Ordering>) -> Option<Ordering> {
+        if self.fine.get().is_some() {
+            return None;
+        }
+        let answer = ask(self.fine()?);
+        answer.inspect(|_| count(|counts| counts.fine += 1))
+    }
+
     fn form(&self) -> Option<&Homogeneous> {
         self.form.get_or_init(|| construct(&self.elements)).as_ref()
     }
@@ -125,7 +201,9 @@ impl ExactDisk {
     #[must_use]
     pub fn front(&self, a: Point, b: Point) -> Ordering {
         rounded(self.near.product((b - a).perp(), a))
+            .or_else(|| self.fine_now(|fine| fine.front(a, b)))
             .or_else(|| on_normal(transition::product_across(&self.elements, [a, b])))
+            .or_else(|| self.fine_first(|fine| fine.front(a, b)))
             .unwrap_or_else(|| self.front_in_tower(a, b))
     }
 
@@ -144,7 +222,9 @@ impl ExactDisk {
             return Ordering::Equal;
         }
         rounded(self.near.product(b - a, p))
+            .or_else(|| self.fine_now(|fine| fine.along(a, b, p)))
             .or_else(|| on_normal(transition::product_along(&self.elements, [a, b], p)))
+            .or_else(|| self.fine_first(|fine| fine.along(a, b, p)))
             .unwrap_or_else(|| self.along_in_tower(a, b, p))
     }
 
@@ -190,7 +270,10 @@ impl ExactDisk {
     /// zero where the value is.
     #[must_use]
     pub fn approximate(&self) -> (Point, f64) {
-        self.form().map_or_else(|| self.near.values(), Homogeneous::nearest)
+        let fine = if self.form.get().is_none() { self.fine() } else { None };
+        fine.and_then(Fine::nearest)
+            .or_else(|| self.form().map(Homogeneous::nearest))
+            .unwrap_or_else(|| self.near.values())
     }
 }
 

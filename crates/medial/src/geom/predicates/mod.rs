@@ -11,11 +11,12 @@
 //!
 //! 1. Structure: an element that governs the disk, or ends at its contact.
 //! 2. Doubles with a bound on their error, for the disk ([`TouchingDisk`](super::TouchingDisk), else
-//!    from the integers) and for the question.
+//!    from pairs of doubles or the integers) and for the question.
 //! 3. Forms for the ties that are common: four corners by one determinant, four edges by minors of 256
 //!    bits, centres on the normal at the end of an edge by a product of 256 bits, and the order in which
 //!    two governors leave a path by forms without roots ([`two_ends`]).
-//! 4. The tower. Doubles become integers by one power of two, relative to a local origin. The disk is
+//! 4. Pairs of doubles with a bound, for near ties that are none.
+//! 5. The tower. Doubles become integers by one power of two, relative to a local origin. The disk is
 //!    kept as centre `(x, y)/w` and radius, with `w > 0`, whose numbers are integer combinations of
 //!    products of square roots; so almost every question is one more such number, linear in the disk.
 //!    The sign of `a + b·√c` comes from those of `a`, `b` and `a² - b²·c`, one level down. This always
@@ -37,6 +38,7 @@ mod construct;
 mod counts;
 mod disk;
 mod ends;
+mod fine;
 mod grid;
 mod homogeneous;
 mod near;

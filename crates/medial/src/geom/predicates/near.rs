@@ -19,23 +19,24 @@ const ROUNDING: f64 = 10.0 * U;
 
 /// More than the length of a vector whose square underflows, and far below any length between doubles
 /// with exponents of at most 200 in magnitude.
-const SHORT: f64 = f64::from_bits((1023 - 480) << 52);
+pub(super) const SHORT: f64 = f64::from_bits((1023 - 480) << 52);
 
 /// A disk, each of its numbers within `error`.
 ///
 /// An infinite error, or one that is not a number, leaves every question open.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Near {
-    origin: Point,
+    pub(super) origin: Point,
     /// Relative to the origin.
-    centre: Point,
-    radius: f64,
-    error: f64,
+    pub(super) centre: Point,
+    pub(super) radius: f64,
+    pub(super) error: f64,
 }
 
 impl Near {
-    /// The disk touching three elements if doubles alone can prove that there is one.
-    pub(super) fn certified(elements: &[Element; 3]) -> Option<Self> {
+    /// The disk touching three elements where doubles find one, and whether they alone can prove that
+    /// there is one; otherwise its error is infinite.
+    pub(super) fn found(elements: &[Element; 3]) -> Option<Self> {
         let governors = elements.map(|element| match element {
             Element::Corner(p) => Governor::Corner(p),
             Element::Edge(start, end) => {
@@ -48,13 +49,13 @@ impl Near {
         let near = match elements[0] {
             Element::Corner(p) | Element::Edge(p, _) => p,
         };
-        let disk = TouchingDisk::guess(&governors, near)?.certified(&governors)?;
-        Some(Self {
-            origin: disk.origin,
-            centre: disk.centre,
-            radius: disk.radius,
-            error: disk.bound,
-        })
+        let guess = TouchingDisk::guess(&governors, near)?;
+        Some(Self::from(&guess.certified(&governors).unwrap_or(guess)))
+    }
+
+    /// Whether there certainly is such a disk.
+    pub(super) fn is_certain(&self) -> bool {
+        self.error < self.radius
     }
 
     /// A disk given exactly.
@@ -127,10 +128,17 @@ impl Near {
     }
 }
 
+impl From<&TouchingDisk> for Near {
+    fn from(disk: &TouchingDisk) -> Self {
+        let TouchingDisk { origin, centre, radius, bound } = *disk;
+        Self { origin, centre, radius, error: bound }
+    }
+}
+
 /// The sign of a value if it is larger than its error.
 ///
 /// The smallest normal number covers what underflows.
-fn sign(value: f64, error: f64) -> Option<Ordering> {
+pub(super) fn sign(value: f64, error: f64) -> Option<Ordering> {
     let error = error + f64::MIN_POSITIVE;
     if value > error {
         Some(Ordering::Greater)

@@ -88,7 +88,7 @@ impl Transition {
 }
 
 /// A corner that governs with an edge that ends there, the edge, and the third element.
-fn touching_end(elements: &[Element; 3]) -> Option<(Point, [Point; 2], Element)> {
+pub(super) fn touching_end(elements: &[Element; 3]) -> Option<(Point, [Point; 2], Element)> {
     for i in 0..3 {
         let Element::Corner(v) = elements[i] else { continue };
         for j in 0..3 {

@@ -3,6 +3,7 @@
 mod agreement;
 mod circle;
 mod consistency;
+mod fine;
 mod known;
 mod random;
 mod reference;

@@ -1,0 +1,294 @@
+//! A disk in pairs of doubles with a bound on its error, which decides near ties.
+
+use std::cmp::Ordering;
+
+use super::Element;
+use super::near::{Near, SHORT, sign};
+use crate::geom::{Double, Point};
+
+/// Half an ulp of 1.
+const U: f64 = f64::EPSILON / 2.0;
+
+/// Rounding of a distance, or of a sum of two products, relative to the sizes that enter it.
+///
+/// A direction is right to 4·2^-100 of its components, a difference to 2^-100 of its operands, and
+/// products and sums add three more: less than 16·2^-100 in all.
+const ROUNDING: f64 = 1.0 / (1_u128 << 96) as f64;
+
+/// Newton steps before a disk is left to integers; each one gains at least a bit.
+const STEPS: usize = 12;
+
+/// A vector of pairs of doubles.
+#[derive(Clone, Copy, Debug)]
+struct Pair {
+    x: Double,
+    y: Double,
+}
+
+impl Pair {
+    const ZERO: Self = Self { x: Double::ZERO, y: Double::ZERO };
+
+    /// The difference of two points, without error.
+    fn between(from: Point, to: Point) -> Self {
+        Self { x: Double::difference(to.x, from.x), y: Double::difference(to.y, from.y) }
+    }
+
+    fn minus(self, other: Self) -> Self {
+        Self { x: self.x - other.x, y: self.y - other.y }
+    }
+
+    fn dot(self, other: Self) -> Double {
+        self.x * other.x + self.y * other.y
+    }
+
+    fn perp(self) -> Self {
+        Self { x: -self.y, y: self.x }
+    }
+
+    fn times(self, factor: Double) -> Self {
+        Self { x: self.x * factor, y: self.y * factor }
+    }
+
+    fn value(self) -> Point {
+        Point::new(self.x.value(), self.y.value())
+    }
+
+    /// Sum of the sizes of the components.
+    fn size(self) -> f64 {
+        self.x.value().abs() + self.y.value().abs()
+    }
+}
+
+/// An element relative to the origin.
+#[derive(Clone, Copy)]
+enum Local {
+    Corner(Pair),
+    /// A point of the supporting line and the unit normal.
+    Edge(Pair, Pair),
+}
+
+/// A distance from the centre less the radius, with the unit vector towards the centre, and what the
+/// distance may be off.
+struct Residual {
+    normal: Pair,
+    rest: Double,
+    error: f64,
+}
+
+/// A disk, each of its numbers, and its distance to anything less its radius, within `error`.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Fine {
+    origin: Point,
+    /// Relative to the origin.
+    centre: Pair,
+    radius: Double,
+    error: f64,
+}
+
+impl Fine {
+    /// The disk touching three elements, contacts counterclockwise, found from one nearby.
+    ///
+    /// `None` if pairs of doubles cannot prove it.
+    pub(super) fn new(elements: &[Element; 3], start: &Near) -> Option<Self> {
+        if let Some((v, edge, other)) = super::transition::touching_end(elements) {
+            return Self::on_normal(v, edge, other, start.radius);
+        }
+        let origin = start.origin;
+        let mut disk = Self {
+            origin,
+            centre: Pair { x: start.centre.x.into(), y: start.centre.y.into() },
+            radius: start.radius.into(),
+            error: f64::INFINITY,
+        };
+        let centre = origin + start.centre;
+        let locals = [
+            disk.local(elements[0], centre)?,
+            disk.local(elements[1], centre)?,
+            disk.local(elements[2], centre)?,
+        ];
+        let corners = elements.iter().any(|e| matches!(e, Element::Corner(_)));
+        let mut best: Option<Self> = None;
+        for _ in 0..STEPS {
+            let [r1, r2, r3] = locals.map(|local| disk.residual(local));
+            let difference = |a: &Residual, b: &Residual| b.normal.minus(a.normal).value();
+            let (b, e) = (difference(&r1, &r2), difference(&r1, &r3));
+            let (lb, le) = (b.norm(), e.norm());
+            // The components are off by u of their own and what the normals are.
+            let d = b.cross(e) - (8.0 * U * lb * le + 4.0 * ROUNDING * (lb + le));
+            if d.is_nan() || d <= 0.0 {
+                return best;
+            }
+            let sides = [difference(&r2, &r3).norm(), le, lb].map(|l| l + 4.0 * ROUNDING);
+            let open = |r: &Residual| r.rest.value().abs() + r.error;
+            // What is left is rounding, which no step makes less.
+            let last = [&r1, &r2, &r3].iter().all(|r| r.rest.value().abs() <= r.error);
+            let factor = 2.0 / d;
+            let mut error =
+                factor * (sides[0] * open(&r1) + sides[1] * open(&r2) + sides[2] * open(&r3));
+            if corners {
+                let k = factor * (sides[0] + sides[1] + sides[2]);
+                let near = 32.0 * k * error <= disk.radius.value();
+                error = if near { 1.25 * error } else { f64::INFINITY };
+            }
+            let error = error * (1.0 + 64.0 * U);
+            if error < disk.radius.value() && best.is_none_or(|known| error < known.error) {
+                let done = last || best.is_some_and(|known| 2.0 * error > known.error);
+                best = Some(Self { error, ..disk });
+                if done {
+                    return best;
+                }
+            } else if best.is_some() {
+                return best;
+            }
+            let (p12, p13) = ((r1.rest - r2.rest).value(), (r1.rest - r3.rest).value());
+            let d = b.cross(e);
+            let dx = Point::new((p12 * e.y - p13 * b.y) / d, (b.x * p13 - e.x * p12) / d);
+            let step = r1.rest.value() + r1.normal.value().dot(dx);
+            disk.centre.x = disk.centre.x + dx.x.into();
+            disk.centre.y = disk.centre.y + dx.y.into();
+            disk.radius = disk.radius + step.into();
+        }
+        best
+    }
+
+    /// The disk with its centre on the normal of an edge at its end `v`.
+    fn on_normal(v: Point, [a, b]: [Point; 2], other: Element, radius: f64) -> Option<Self> {
+        let mut disk =
+            Self { origin: v, centre: Pair::ZERO, radius: radius.into(), error: f64::INFINITY };
+        let normal = unit(Pair::between(a, b))?.perp();
+        let other = disk.local(other, v + normal.value() * radius)?;
+        let mut best: Option<Self> = None;
+        for _ in 0..STEPS {
+            disk.centre = normal.times(disk.radius);
+            let Residual { normal: n, rest, error } = disk.residual(other);
+            let between = n.minus(normal).value().norm();
+            let g = between * between / 2.0;
+            let least = g * (1.0 - 16.0 * U) - 8.0 * ROUNDING * between;
+            let r = disk.radius.value();
+            if least.is_nan() || least <= 0.0 || r.is_nan() || r <= 0.0 {
+                return best;
+            }
+            let rounding = 2.0 * ROUNDING * r;
+            let mut bound = 2.0 * (rest.value().abs() + error + rounding) / least + rounding;
+            if let Local::Corner(_) = other {
+                bound = if 64.0 * bound <= r * least { 1.25 * bound } else { f64::INFINITY };
+            }
+            let bound = bound * (1.0 + 64.0 * U);
+            if bound < r && best.is_none_or(|known| bound < known.error) {
+                let done = rest.value().abs() <= error
+                    || best.is_some_and(|known| 2.0 * bound > known.error);
+                best = Some(Self { error: bound, ..disk });
+                if done {
+                    return best;
+                }
+            } else if best.is_some() {
+                return best;
+            }
+            disk.radius = disk.radius + (rest.value() / g).into();
+        }
+        best
+    }
+
+    fn local(&self, element: Element, near: Point) -> Option<Local> {
+        Some(match element {
+            Element::Corner(p) => Local::Corner(Pair::between(self.origin, p)),
+            Element::Edge(a, b) => {
+                let nearest = if (a - near).norm2() <= (b - near).norm2() { a } else { b };
+                let normal = unit(Pair::between(a, b))?.perp();
+                Local::Edge(Pair::between(self.origin, nearest), normal)
+            }
+        })
+    }
+
+    fn residual(&self, local: Local) -> Residual {
+        let (Local::Corner(p) | Local::Edge(p, _)) = local;
+        let q = self.centre.minus(p);
+        let (normal, distance) = match local {
+            Local::Corner(_) => {
+                let distance = q.dot(q).sqrt();
+                (q.times(Double::from(1.0) / distance), distance)
+            }
+            Local::Edge(_, normal) => (normal, q.dot(normal)),
+        };
+        let size = q.size() + self.centre.size() + p.size() + self.radius.value().abs();
+        Residual { normal, rest: distance - self.radius, error: ROUNDING * size + SHORT }
+    }
+
+    /// The disk in doubles.
+    pub(super) fn near(&self) -> Near {
+        let (centre, radius) = (self.centre.value(), self.radius.value());
+        let size = centre.x.abs() + centre.y.abs() + radius.abs();
+        let error = (self.error + U * size) * (1.0 + 8.0 * U);
+        Near { origin: self.origin, centre, radius, error }
+    }
+
+    /// Centre and radius, each coordinate rounded to the nearest double, if that is certain.
+    pub(super) fn nearest(&self) -> Option<(Point, f64)> {
+        let coordinate = |origin: f64, local: Double| {
+            let sum = Double::from(origin) + local;
+            nearest(sum, self.error + ROUNDING * (origin.abs() + local.value().abs()))
+        };
+        let x = coordinate(self.origin.x, self.centre.x)?;
+        let y = coordinate(self.origin.y, self.centre.y)?;
+        Some((Point::new(x, y), nearest(self.radius, self.error)?))
+    }
+
+    /// The centre relative to a point, and a bound on the error of its distances and coordinates.
+    fn centre_from(&self, p: Point) -> (Pair, f64) {
+        let local = Pair::between(self.origin, p);
+        (self.centre.minus(local), self.error + ROUNDING * (local.size() + self.centre.size()))
+    }
+
+    /// The sign of `(b - a)·(c - p)`.
+    pub(super) fn along(&self, a: Point, b: Point, p: Point) -> Option<Ordering> {
+        self.product(Pair::between(a, b), p)
+    }
+
+    /// The sign of `(b - a)×(c - a)`.
+    pub(super) fn front(&self, a: Point, b: Point) -> Option<Ordering> {
+        self.product(Pair::between(a, b).perp(), a)
+    }
+
+    fn product(&self, v: Pair, p: Point) -> Option<Ordering> {
+        let (c, error) = self.centre_from(p);
+        let value = v.dot(c).value();
+        sign(value, 2.0 * v.size() * (error + ROUNDING * c.size()) + 2.0 * U * value.abs())
+    }
+
+    /// The sign of the distance of an element less the radius.
+    pub(super) fn side(&self, element: Element) -> Option<Ordering> {
+        let radius = self.radius.value();
+        match element {
+            Element::Corner(p) => {
+                // (|q| - r)(|q| + r)
+                let (q, error) = self.centre_from(p);
+                let value = (q.dot(q) - self.radius * self.radius).value();
+                let size = q.size() + radius;
+                sign(value, 2.0 * size * (error + ROUNDING * size + SHORT) + 2.0 * U * value.abs())
+            }
+            Element::Edge(a, b) => {
+                let (q, error) = self.centre_from(a);
+                let d = Pair::between(a, b);
+                let length = d.dot(d).sqrt();
+                let value = (d.perp().dot(q) - length * self.radius).value();
+                let error = error + ROUNDING * (q.size() + radius) + SHORT;
+                sign(value, 2.0 * d.size() * error + 2.0 * U * value.abs())
+            }
+        }
+    }
+}
+
+/// The unit vector of a direction.
+fn unit(d: Pair) -> Option<Pair> {
+    let length = d.dot(d).sqrt();
+    (length.value() > 0.0).then(|| d.times(Double::from(1.0) / length))
+}
+
+/// The double nearest to all numbers within `error` of a value, if there is one.
+fn nearest(value: Double, error: f64) -> Option<f64> {
+    let high = value.value();
+    let low = (value - high.into()).value();
+    // Rounding is monotonic.
+    let error = error * (1.0 + 4.0 * U) + U * low.abs();
+    (high + (low + error) == high && high + (low - error) == high).then_some(high)
+}
