@@ -563,7 +563,9 @@ impl Search<'_> {
             verify.run();
             let link = verify.link();
             let by_form = exact.is_none();
-            match verify.verdict(exact.take()) {
+            let verdict = verify.verdict(&mut exact);
+            exact = None;
+            match verdict {
                 Verdict::Better(next) => {
                     self.go_back(link);
                     end = next;

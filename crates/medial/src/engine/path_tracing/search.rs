@@ -341,7 +341,7 @@ impl<'a> Search<'a> {
                 centre: proposal.disk.position(),
                 radius: proposal.disk.radius,
             });
-            let Some((disk, exact)) = self.certify(&triple, &proposal.disk) else {
+            let Some((disk, mut exact)) = self.certify(&triple, &proposal.disk) else {
                 self.banned.push(proposal.site);
                 seen.retain(|&s| s != proposal.site);
                 best = None;
@@ -352,7 +352,7 @@ impl<'a> Search<'a> {
             let start = (&gap.start, &[][..]);
             let mut verify = Verify::certified(self, gap, start, triple, disk, floating);
             verify.run();
-            let verdict = verify.verdict(exact);
+            let verdict = verify.verdict(&mut exact);
             match verdict {
                 Verdict::Better(next) => best = Some(next),
                 Verdict::Earlier(site) => {

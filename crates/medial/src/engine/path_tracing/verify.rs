@@ -75,7 +75,7 @@ pub(super) struct Verify<'s, 'a> {
 impl<'s, 'a> Verify<'s, 'a> {
     /// Looks for anything that cuts the certified disk of a triple, at the end of several pieces of a
     /// path, the last of which is `gap`; `anchor` is the empty disk at the start of the first one.
-    #[inline]
+    #[inline(always)]
     pub fn certified(
         search: &'s Search<'a>,
         gap: &'s Gap,
@@ -285,8 +285,9 @@ impl<'s, 'a> Verify<'s, 'a> {
         })
     }
 
-    /// The verdict on the certified disk, once the walk is done.
-    pub fn verdict(&self, exact: Option<ExactDisk>) -> Verdict {
+    /// The verdict on the certified disk, once the walk is done; `exact` is the same disk exactly, if
+    /// anybody has it or needs it.
+    pub fn verdict(&self, exact: &mut Option<ExactDisk>) -> Verdict {
         let search = self.search;
         if let Some(best) = self.best {
             return Verdict::Better(best);
@@ -296,7 +297,6 @@ impl<'s, 'a> Verify<'s, 'a> {
                 self.cut.iter().flat_map(|&k| self.sites_of(k)).flatten().collect(),
             );
         }
-        let mut exact = exact;
         let mut contacts = Contacts::new();
         let domain = search.domain;
         let of_certified = || search.certified(&self.triple, &self.certified);
@@ -354,7 +354,7 @@ impl<'s, 'a> Verify<'s, 'a> {
             if search.watch.is_over() {
                 return Verdict::OffEdge;
             }
-            let (disk, seen) = match (&earlier, &exact) {
+            let (disk, seen) = match (&earlier, &*exact) {
                 (Some((_, disk)), _) => (disk, Seen::default()),
                 (None, Some(disk)) => (disk, self.seen(edge)),
                 (None, None) => return Verdict::OffEdge,
