@@ -22,6 +22,10 @@ use super::Point;
 /// Half an ulp of 1.
 pub(crate) const U: f64 = f64::EPSILON / 2.0;
 
+/// Twice the area of the triangle of three normals from which plain differences of distances make a
+/// guess.
+const WIDE: f64 = 1e-3;
+
 /// A boundary element with what doubles need to compute with it.
 #[derive(Clone, Copy, Debug)]
 pub enum Governor {
@@ -123,14 +127,30 @@ impl TouchingDisk {
     pub fn guess(governors: &[Governor; 3], near: Point) -> Option<Self> {
         let g = corners_first(governors);
         let mut origin = g[0].anchor();
-        if let Governor::Edge { .. } = g[0] {
-            let ends = g.iter().flat_map(|g| [g.anchor(), g.end()]);
+        if let [
+            &Governor::Edge { start: a, end: b, direction: t },
+            &Governor::Edge { start: c, end: d, direction: u },
+            &Governor::Edge { start: e, end: f, direction: v },
+        ] = g
+        {
             let mut best = f64::INFINITY;
-            for end in ends {
+            for end in [a, b, c, d, e, f] {
                 let distance = (end - near).norm2();
                 if distance < best {
                     (best, origin) = (distance, end);
                 }
+            }
+            let (across, along) = (u - t, v - t);
+            let spread = across.cross(along);
+            if spread > WIDE {
+                // Two differences of the three distances from the lines; no roots.
+                let h = |p: Point, t: Point| t.cross(origin - p);
+                let h1 = h(a, t);
+                let (p, q) = (h1 - h(c, u), h1 - h(e, v));
+                let centre = (along * p - across * q) * (1.0 / spread);
+                let radius = h1 + t.cross(centre);
+                let sound = radius > 0.0 && radius.is_finite();
+                return sound.then_some(Self { origin, centre, radius, bound: f64::INFINITY });
             }
         }
         Self::form(g, origin)
