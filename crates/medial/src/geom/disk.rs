@@ -22,8 +22,7 @@ use super::Point;
 /// Half an ulp of 1.
 pub(crate) const U: f64 = f64::EPSILON / 2.0;
 
-/// Twice the area of the triangle of three normals from which plain differences of distances make a
-/// guess.
+/// Twice the area of the triangle of three normals from which plain differences of distances will do.
 const WIDE: f64 = 1e-3;
 
 /// A boundary element with what doubles need to compute with it.
@@ -128,9 +127,9 @@ impl TouchingDisk {
         let g = corners_first(governors);
         let mut origin = g[0].anchor();
         if let [
-            &Governor::Edge { start: a, end: b, direction: t },
-            &Governor::Edge { start: c, end: d, direction: u },
-            &Governor::Edge { start: e, end: f, direction: v },
+            &Governor::Edge { start: a, end: b, .. },
+            &Governor::Edge { start: c, end: d, .. },
+            &Governor::Edge { start: e, end: f, .. },
         ] = g
         {
             let mut best = f64::INFINITY;
@@ -139,18 +138,6 @@ impl TouchingDisk {
                 if distance < best {
                     (best, origin) = (distance, end);
                 }
-            }
-            let (across, along) = (u - t, v - t);
-            let spread = across.cross(along);
-            if spread > WIDE {
-                // Two differences of the three distances from the lines; no roots.
-                let h = |p: Point, t: Point| t.cross(origin - p);
-                let h1 = h(a, t);
-                let (p, q) = (h1 - h(c, u), h1 - h(e, v));
-                let centre = (along * p - across * q) * (1.0 / spread);
-                let radius = h1 + t.cross(centre);
-                let sound = radius > 0.0 && radius.is_finite();
-                return sound.then_some(Self { origin, centre, radius, bound: f64::INFINITY });
             }
         }
         Self::form(g, origin)
@@ -553,6 +540,15 @@ fn two_corners_and_edge(
 
 #[inline]
 fn three_edges(ends: [Point; 6], t: [Point; 3], origin: Point) -> Option<(Point, Point, f64)> {
+    let (across, along) = (t[1] - t[0], t[2] - t[0]);
+    let spread = across.cross(along);
+    if spread > WIDE {
+        // Two differences of the three distances from the lines; no roots.
+        let h: [f64; 3] = std::array::from_fn(|k| t[k].cross(origin - ends[2 * k]));
+        let (p, q) = (h[0] - h[1], h[0] - h[2]);
+        let centre = (along * p - across * q) * (1.0 / spread);
+        return Some((origin, centre, h[0] + t[0].cross(centre)));
+    }
     let h: [f64; 3] = std::array::from_fn(|k| height(origin, ends[2 * k], ends[2 * k + 1], t[k]));
     let c = [t[0].cross(t[1]), t[1].cross(t[2]), t[2].cross(t[0])];
     let cos = [t[0].dot(t[1]), t[1].dot(t[2]), t[2].dot(t[0])];
