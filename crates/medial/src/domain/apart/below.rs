@@ -67,7 +67,7 @@ struct Search<'a> {
 
 impl<'a> Search<'a> {
     fn new(tree: &'a Tree<'a>) -> Self {
-        let ray = Bounds { min: [f32::NEG_INFINITY; 2], max: [f32::NEG_INFINITY; 2] };
+        let ray = Bounds { min: [f32::MIN; 2], max: [f32::MIN; 2] };
         let (from, stack) = (Point::default(), [(0.0, 0, 0); 96]);
         Self { tree, from, ray, best: None, work: 0, stack }
     }
@@ -75,7 +75,7 @@ impl<'a> Search<'a> {
     /// What lies right below the leftmost vertex of a ring.
     fn below(&mut self, from: Point) -> Around {
         let (x, y) = (self.tree.map.x(from.x), self.tree.map.y(from.y));
-        self.ray = Bounds { min: [x, f32::NEG_INFINITY], max: [x, y] };
+        self.ray = Bounds { min: [x, f32::MIN], max: [x, y] };
         (self.from, self.best) = (from, None);
         self.search();
         let Some(Ground { ring, forward, .. }) = self.best else { return Around::Nothing };
@@ -89,7 +89,7 @@ impl<'a> Search<'a> {
 
     /// Looks at all edges along the ray, which ends at the best one, the highest nodes first.
     fn search(&mut self) {
-        self.stack[0] = (f32::INFINITY, self.tree.height() as u32 - 1, 0);
+        self.stack[0] = (f32::MAX, self.tree.height() as u32 - 1, 0);
         let mut len = 1;
         while len > 0 {
             len -= 1;
