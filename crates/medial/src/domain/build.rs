@@ -1,8 +1,10 @@
+use std::mem;
+
 use super::apart::{Nesting, apart};
 use super::assemble::assemble;
 use super::nesting::regroup;
-use super::outlines::Outlines;
-use super::rings::Rings;
+use super::outlines::Draft;
+use super::rings::{Rings, count_vertices};
 use super::status::NONE;
 use super::sweep::{Arrangement, Purpose, sweep};
 use super::{Domain, DomainError, Place, Repair, Report};
@@ -44,9 +46,10 @@ impl Domain {
         options: &Options,
     ) -> Result<Self, DomainError> {
         let mut report = Report::default();
+        let n_vertices = count_vertices(polygons)?;
+        let draft = Draft::with_room(n_vertices, polygons.iter().map(Vec::len).sum());
         let mut rings = Rings::clean(polygons, options, &mut report)?;
-        let order = rings.order();
-        let nesting = apart(&rings, &order);
+        let nesting = apart(&rings);
         if options.regroup {
             let parents = match &nesting {
                 Some(nesting) => nesting.parents(),
@@ -59,24 +62,24 @@ impl Domain {
         }
         match nesting {
             Some(nesting) if nesting.sides_agree(&rings) => {
-                let order = (rings.lone && !options.regroup).then_some(order);
-                Self::of_rings(rings, &nesting, order, report)
+                let order = (rings.lone && !options.regroup).then(|| mem::take(&mut rings.order));
+                Self::of_rings(draft, &rings, &nesting, order, report)
             }
-            _ => Self::of_touching_rings(rings, polygons.len(), options, report),
+            _ => Self::of_touching_rings(draft, rings, polygons.len(), options, report),
         }
     }
 
     /// The domain bounded by rings that are simple, apart from one another, and well nested; the
     /// order of its walks may be known.
     pub(super) fn of_rings(
-        rings: Rings,
+        draft: Draft,
+        rings: &Rings,
         nesting: &Nesting,
         order: Option<Vec<u32>>,
         report: Report,
     ) -> Result<Self, DomainError> {
-        let outlines = Outlines::of_rings(rings);
-        let order = order.unwrap_or_else(|| outlines.order());
-        let mut domain = outlines.into_domain(&order, report);
+        let order = order.unwrap_or_else(|| rings.walk_order());
+        let mut domain = draft.rings(rings, &order, report);
         domain.number_components(|_| {
             let mut places = vec![NONE; order.len()];
             for (new, &old) in (0..).zip(&order) {
@@ -92,6 +95,7 @@ impl Domain {
 
     /// The domain bounded by any rings, if there is one.
     pub(super) fn of_touching_rings(
+        draft: Draft,
         mut rings: Rings,
         polygons: usize,
         options: &Options,
@@ -112,7 +116,7 @@ impl Domain {
         let lone = rings.lone;
         drop((rings, found));
         let order = outlines.order();
-        let mut domain = outlines.into_domain(&order, report);
+        let mut domain = draft.outlines(outlines, &order, report);
         for (polygon, parts) in (0..).zip(domain.parts(polygons)) {
             let at = Place { polygon, ring: 0, index: 0, lone };
             if parts == 0 && outer[polygon as usize] > 0 {

@@ -24,19 +24,27 @@ impl Outlines {
 }
 
 impl Rings<'_> {
-    /// The rings in an order in which near ones follow one another: if there is one polygon, that
-    /// of the walks they make if they touch nowhere; else all of them along a curve.
-    pub(super) fn order(&self) -> Vec<u32> {
+    /// An order of the rings in which near ones follow one another: if there is one polygon, that
+    /// of the walks they make if they touch nowhere; else all along a curve.
+    pub(super) fn curve_order(&self) -> Vec<u32> {
         let n = self.rings.len();
         let ring = |number: u32| &self.rings[number as usize];
         if self.lone {
-            let corner = |number| self.point(ring(number).first + ring(number).start());
+            let corner = |number| self.given_point(ring(number), ring(number).start());
             holes_along_a_curve(n, |_| 0, |number| ring(number).index > 0, corner)
         } else if n <= FEW_RINGS {
             (0..n as u32).collect()
         } else {
-            holes_along_a_curve(n, |_| 0, |_| true, |number| self.point(ring(number).first))
+            holes_along_a_curve(n, |_| 0, |_| true, |number| self.given_point(ring(number), 0))
         }
+    }
+
+    /// The order of the walks they make if they touch nowhere.
+    pub(super) fn walk_order(&self) -> Vec<u32> {
+        let ring = |number: u32| &self.rings[number as usize];
+        let corner = |number| self.given_point(ring(number), ring(number).start());
+        let (polygon, hole) = (|number| ring(number).polygon, |number| ring(number).hole);
+        holes_along_a_curve(self.rings.len(), polygon, hole, corner)
     }
 }
 
@@ -49,18 +57,25 @@ fn holes_along_a_curve(
     corner: impl Fn(u32) -> Point,
 ) -> Vec<u32> {
     let mut order: Vec<u32> = (0..n as u32).collect();
-    let mut places: Vec<u32> = order.iter().copied().filter(|&w| hole(w)).collect();
-    if places.len() < 2 {
+    let n_holes = order.iter().filter(|&&w| hole(w)).count();
+    if n_holes < 2 {
         return order;
     }
+    let mut places = Vec::with_capacity(n_holes);
+    places.extend(order.iter().copied().filter(|&w| hole(w)));
+    if !places.is_sorted_by_key(|&w| polygon(w)) {
+        places.sort_by_key(|&w| polygon(w));
+    }
     let bounds = places.iter().fold(Rect::EMPTY, |all, &w| all.with(corner(w)));
-    // Equal keys keep their order. A position on the curve has 32 bits.
-    let key = |&w: &u32| (polygon(w), hilbert(&bounds, corner(w)) << 32 | u64::from(w));
-    let mut sorted: Vec<_> = places.iter().map(key).collect();
-    sorted.sort_unstable();
-    places.sort_by_key(|&w| polygon(w));
-    for (place, (_, key)) in places.into_iter().zip(sorted) {
-        order[place as usize] = key as u32;
+    let mut keys = Vec::with_capacity(n_holes);
+    for places in places.chunk_by(|&a, &b| polygon(a) == polygon(b)) {
+        keys.clear();
+        // Equal ones keep their order. A position on the curve has 32 bits.
+        keys.extend(places.iter().map(|&w| hilbert(&bounds, corner(w)) << 32 | u64::from(w)));
+        keys.sort_unstable();
+        for (&place, &key) in places.iter().zip(&keys) {
+            order[place as usize] = key as u32;
+        }
     }
     order
 }

@@ -1,6 +1,7 @@
 //! The rings of a feature, each cleaned by itself and directed with the interior on its left.
 
 use std::cmp::Ordering;
+use std::ops::Range;
 
 use super::area;
 use super::reduce::{Reduced, append_corners, open_len, reduce};
@@ -8,7 +9,7 @@ use super::status::NONE;
 use super::{Corner, Domain, DomainError, Options, Place, Repair, Report, Walk};
 use crate::geom::Point;
 
-/// Cleaned rings, one after another in one numbering of vertices and edges.
+/// Cleaned rings, one after another, in any order, in one numbering of vertices and edges.
 ///
 /// Edge k runs from vertex k to the next vertex of its ring; no three consecutive vertices of a
 /// ring are on one line, and no two of them equal.
@@ -17,6 +18,8 @@ pub(super) struct Rings<'a> {
     pub(super) points: Vec<Point>,
     /// How each ring by itself turns at each vertex, seen from its left.
     pub(super) corners: Vec<Corner>,
+    /// The rings in the order in which their vertices are laid out.
+    pub(super) order: Vec<u32>,
     /// What became of the rings that were cleaned.
     pub(super) cleaned: Vec<Cleaned>,
     /// Ring of each vertex, once [`number`](Self::number) was called.
@@ -42,6 +45,11 @@ pub(super) struct Ring {
 }
 
 impl Ring {
+    /// Its vertices.
+    pub(super) fn range(&self) -> Range<usize> {
+        self.first as usize..(self.first + self.len) as usize
+    }
+
     /// Where, from its first vertex, the edge with the smallest index starts.
     pub(super) fn start(&self) -> u32 {
         // Backwards, that is the last edge but one.
@@ -61,22 +69,20 @@ pub(super) struct Cleaned {
 const MAX_VERTICES: usize = 1 << 30;
 
 impl<'a> Rings<'a> {
-    /// Checks coordinates, cleans and directs every ring.
+    /// Checks coordinates, cleans and directs every ring; near rings follow one another.
     pub(super) fn clean(
         polygons: &'a [Vec<Vec<Point>>],
         options: &Options,
         report: &mut Report,
     ) -> Result<Self, DomainError> {
-        let found: usize = polygons.iter().flatten().map(Vec::len).sum();
-        if found > MAX_VERTICES || polygons.len() > MAX_VERTICES {
-            return Err(DomainError::TooLarge { found });
-        }
+        let found = count_vertices(polygons)?;
         let lone = polygons.len() == 1;
         check_coordinates(polygons, lone)?;
         let mut rings = Self {
             rings: Vec::with_capacity(polygons.iter().map(Vec::len).sum()),
-            points: Vec::with_capacity(found),
+            points: Vec::new(),
             corners: Vec::with_capacity(found),
+            order: Vec::new(),
             cleaned: Vec::new(),
             ring: Vec::new(),
             lone,
@@ -110,6 +116,8 @@ impl<'a> Rings<'a> {
             let at = Place { polygon: 0, ring: 0, index: 0, lone };
             return Err(DomainError::Empty { at });
         }
+        let order = rings.curve_order();
+        rings.lay_out(order);
         Ok(rings)
     }
 
@@ -129,6 +137,7 @@ impl<'a> Rings<'a> {
             rings: domain.walks().iter().map(ring).collect(),
             points: edges.iter().map(|e| e.start).collect(),
             corners: edges.iter().map(|e| e.corner).collect(),
+            order: (0..domain.walks().len() as u32).collect(),
             cleaned: Vec::new(),
             ring: edges.iter().map(|e| e.walk).collect(),
             lone: true,
@@ -146,39 +155,45 @@ impl<'a> Rings<'a> {
         if points.is_empty() && at.ring == 0 {
             return Err(DomainError::Empty { at });
         }
-        let first = self.points.len();
+        let first = self.corners.len();
         let open = &points[..open_len(points)];
-        let mut cleaned = NONE;
-        if open.len() + 1 >= points.len() && append_corners(open, &mut self.corners) {
-            self.points.extend_from_slice(open);
+        let (mut cleaned, mut copied) = (NONE, Vec::new());
+        let points = if open.len() + 1 >= points.len() && append_corners(open, &mut self.corners) {
+            open
         } else {
             self.corners.truncate(first);
-            cleaned = self.push_cleaned(points, at, options, report)?;
-        }
+            cleaned = self.clean_ring(points, at, options, report)?;
+            let given = self.cleaned[cleaned as usize].given.iter();
+            copied.extend(given.map(|&k| points[k as usize]));
+            if !append_corners(&copied, &mut self.corners) {
+                return Err(DomainError::Internal { stage: "cleaning" });
+            }
+            &copied
+        };
         // Which rings are holes is not known yet when they are regrouped.
         let hole = at.ring > 0 && !options.regroup;
         let wrong = if hole { Ordering::Greater } else { Ordering::Less };
-        let wrong = area::orientation(&self.points[first..]) == wrong;
+        let reversed = area::orientation(points) == wrong;
         self.rings.push(Ring {
             polygon: at.polygon,
             index: at.ring,
             first: first as u32,
-            len: (self.points.len() - first) as u32,
+            len: points.len() as u32,
             cleaned,
             hole,
-            reversed: false,
+            reversed,
         });
-        if wrong {
-            self.reverse(self.rings.len() - 1);
+        if reversed {
+            turn(&mut self.corners[first..]);
         }
-        if wrong && !options.regroup {
+        if reversed && !options.regroup {
             report.push(Repair::Reversed, at.polygon, at.ring, Vec::new());
         }
         Ok(())
     }
 
-    /// Adds what is left of a ring; the result is its number among the cleaned ones.
-    fn push_cleaned(
+    /// Notes what is left of a ring; the result is its number among the cleaned ones.
+    fn clean_ring(
         &mut self,
         points: &[Point],
         at: Place,
@@ -200,34 +215,53 @@ impl<'a> Rings<'a> {
                 report.push(repair, at.polygon, at.ring, indices);
             }
         }
-        let first = self.points.len();
-        self.points.extend(kept.iter().map(|&k| points[k as usize]));
-        if !append_corners(&self.points[first..], &mut self.corners) {
-            return Err(DomainError::Internal { stage: "cleaning" });
-        }
         self.cleaned.push(Cleaned { given: kept, merged });
         Ok(self.cleaned.len() as u32 - 1)
+    }
+
+    /// A vertex of a ring, counted along it as directed, from the input.
+    pub(super) fn given_point(&self, ring: &Ring, along: u32) -> Point {
+        let position = self.position(ring, along) as usize;
+        self.polygons[ring.polygon as usize][ring.index as usize][position]
     }
 
     /// Turns a ring round.
     pub(super) fn reverse(&mut self, ring: usize) {
         let ring = &mut self.rings[ring];
-        let range = ring.first as usize..(ring.first + ring.len) as usize;
+        let range = ring.range();
         self.points[range.clone()].reverse();
-        let corners = &mut self.corners[range];
-        corners.reverse();
-        for corner in corners {
-            *corner = match *corner {
-                Corner::Convex => Corner::Reflex,
-                Corner::Reflex => Corner::Convex,
-                Corner::Straight => Corner::Straight,
-            };
-        }
+        turn(&mut self.corners[range]);
         ring.reversed = !ring.reversed;
     }
 
-    /// Notes the ring of each vertex.
+    /// Takes the vertices from the input, the rings in the given order.
+    fn lay_out(&mut self, order: Vec<u32>) {
+        let mut corners = Vec::with_capacity(self.corners.len());
+        self.points.clear();
+        self.points.reserve_exact(self.corners.len());
+        for &number in &order {
+            let ring = &mut self.rings[number as usize];
+            corners.extend_from_slice(&self.corners[ring.range()]);
+            ring.first = self.points.len() as u32;
+            let given = &self.polygons[ring.polygon as usize][ring.index as usize];
+            match self.cleaned.get(ring.cleaned as usize) {
+                Some(Cleaned { given: kept, .. }) => {
+                    self.points.extend(kept.iter().map(|&k| given[k as usize]));
+                }
+                None => self.points.extend_from_slice(&given[..ring.len as usize]),
+            }
+            if ring.reversed {
+                self.points[ring.first as usize..].reverse();
+            }
+        }
+        (self.corners, self.order) = (corners, order);
+    }
+
+    /// Lays the vertices out ring by ring, and notes the ring of each.
     pub(super) fn number(&mut self) {
+        if !self.order.is_sorted() {
+            self.lay_out((0..self.rings.len() as u32).collect());
+        }
         self.ring.clear();
         self.ring.reserve(self.points.len());
         for (number, ring) in (0..).zip(&self.rings) {
@@ -238,7 +272,11 @@ impl<'a> Rings<'a> {
     /// Position in its ring as given of a vertex.
     pub(super) fn given(&self, vertex: u32) -> u32 {
         let ring = self.ring_of(vertex);
-        let along = vertex - ring.first;
+        self.position(ring, vertex - ring.first)
+    }
+
+    /// Position in a ring as given of a vertex counted along it as directed.
+    fn position(&self, ring: &Ring, along: u32) -> u32 {
         let along = if ring.reversed { ring.len - 1 - along } else { along };
         match self.cleaned.get(ring.cleaned as usize) {
             Some(cleaned) => cleaned.given[along as usize],
@@ -262,8 +300,7 @@ impl<'a> Rings<'a> {
 
     /// Vertices of a ring in boundary order.
     pub(super) fn ring_points(&self, ring: u32) -> &[Point] {
-        let Ring { first, len, .. } = self.rings[ring as usize];
-        &self.points[first as usize..(first + len) as usize]
+        &self.points[self.rings[ring as usize].range()]
     }
 
     /// Position in the ring as given of the first vertex of an edge in input direction.
@@ -307,6 +344,27 @@ impl<'a> Rings<'a> {
             search(&merged[split(begin)..]) || search(&merged[..split(end)])
         }
     }
+}
+
+/// Corners of a ring that is turned round.
+fn turn(corners: &mut [Corner]) {
+    corners.reverse();
+    for corner in corners {
+        *corner = match *corner {
+            Corner::Convex => Corner::Reflex,
+            Corner::Reflex => Corner::Convex,
+            Corner::Straight => Corner::Straight,
+        };
+    }
+}
+
+/// Number of vertices as given, if there are not too many of them.
+pub(super) fn count_vertices(polygons: &[Vec<Vec<Point>>]) -> Result<usize, DomainError> {
+    let found: usize = polygons.iter().flatten().map(Vec::len).sum();
+    if found > MAX_VERTICES || polygons.len() > MAX_VERTICES {
+        return Err(DomainError::TooLarge { found });
+    }
+    Ok(found)
 }
 
 /// Coordinates other than 0 must have an exponent from -200 to 199, or be 2^200.

@@ -122,7 +122,7 @@ impl<'a> Search<'a> {
 
     fn edge(&mut self, leaf: usize, k: usize) {
         let item = self.tree.item(leaf, k);
-        if item.link.is_some() {
+        if item.is_link {
             return;
         }
         let (start, end) = self.tree.ends(item);
@@ -137,7 +137,7 @@ impl<'a> Search<'a> {
         let share = (self.from.x - left.x) / (right.x - left.x);
         let height = left.y + (right.y - left.y) * share;
         let floor = self.tree.map.y(height - SLACK * (left.y.abs() + right.y.abs()));
-        let found = Ground { left, right, ring: item.ring, forward };
+        let found = Ground { left, right, ring: self.tree.order[item.rank as usize], forward };
         if self.best.is_none_or(|best| lies_above(&found, &best)) {
             self.best = Some(found);
             self.ray.min[1] = floor;

@@ -145,18 +145,19 @@ impl Join<'_> {
             return Ok(());
         }
         self.work += 1;
-        match (a.link, b.link) {
-            (None, None) if touch(self.tree.ends(a), self.tree.ends(b)) => Err(Doubt::Touch),
-            (Some(link), None) => self.check_link(link, a, b),
-            (None, Some(link)) => self.check_link(link, b, a),
+        match (a.is_link, b.is_link) {
+            (false, false) if touch(self.tree.ends(a), self.tree.ends(b)) => Err(Doubt::Touch),
+            (true, false) => self.check_link(a, b),
+            (false, true) => self.check_link(b, a),
             _ => Ok(()),
         }
     }
 
     /// Breaks a link that shares a point with an edge, unless it starts or ends there.
-    fn check_link(&mut self, link: usize, own: Item, edge: Item) -> Result<(), Doubt> {
-        if edge.start != own.start && edge.end != own.end && !self.broken[link] {
-            self.broken[link] = touch(self.tree.ends(own), self.tree.ends(edge));
+    fn check_link(&mut self, own: Item, edge: Item) -> Result<(), Doubt> {
+        let broken = &mut self.broken[own.rank as usize];
+        if edge.start != own.start && edge.end != own.end && !*broken {
+            *broken = touch(self.tree.ends(own), self.tree.ends(edge));
         }
         Ok(())
     }

@@ -53,15 +53,15 @@ enum Around {
 }
 
 /// Shows that the rings are simple and apart, and how they are nested; `None` if that is not so,
-/// or takes too long. The rings are best in an order in which near ones follow one another.
-pub(super) fn apart(rings: &Rings, order: &[u32]) -> Option<Nesting> {
+/// or takes too long. The rings are best laid out so that near ones follow one another.
+pub(super) fn apart(rings: &Rings) -> Option<Nesting> {
     if let [_] = rings.rings[..]
         && rings.points.len() <= FEW_EDGES
     {
         let around = vec![Around::Nothing];
         return (!join::touches_itself(&rings.points)).then_some(Nesting { around });
     }
-    let tree = Tree::new(rings, order);
+    let tree = Tree::new(rings);
     let mut proof = Err(Doubt::Costly);
     if !spreads(&tree) {
         proof = join(&tree, &[]);

@@ -6,6 +6,7 @@ use super::join::{Doubt, join};
 use super::strip::strips;
 use super::tree::Tree;
 use super::{Around, apart};
+use crate::domain::outlines::Draft;
 use crate::domain::rings::Rings;
 use crate::domain::sweep::{Purpose, sweep};
 use crate::domain::{Domain, Options, Report};
@@ -62,16 +63,16 @@ fn agrees(polygons: &[Vec<Vec<Point>>], regroup: bool) -> (bool, bool) {
     let Ok((mut rings, report)) = clean() else { return (false, false) };
     rings.number();
     let touches = touches(&rings);
-    let order = rings.order();
-    let tree = Tree::new(&rings, &order);
+    let tree = Tree::new(&rings);
     let expected = if touches { Err(Doubt::Touch) } else { Ok(()) };
     assert_eq!(join(&tree, &[]).map(|_| ()), expected, "{polygons:?}");
     assert_eq!(join(&tree, &strips(&tree)).map(|_| ()), expected, "{polygons:?}");
-    let Some(nesting) = apart(&rings, &order) else {
+    let Some(nesting) = apart(&rings) else {
         assert!(touches, "{polygons:?}");
         return (false, false);
     };
     let purpose = if regroup { Purpose::Nest } else { Purpose::Validate };
+    rings.number();
     let found = sweep(&rings, purpose);
     let good = regroup || nesting.sides_agree(&rings);
     assert_eq!(found.is_ok(), good, "{polygons:?}");
@@ -79,8 +80,9 @@ fn agrees(polygons: &[Vec<Vec<Point>>], regroup: bool) -> (bool, bool) {
     assert_eq!(found.parents, nesting.parents(), "{polygons:?}");
     assert!(found.cuts.is_empty() && found.links.is_empty() && found.removed.is_empty());
     if !regroup && let Ok((again, same)) = clean() {
-        let fast = Domain::of_rings(rings, &nesting, None, report).expect("apart");
-        let slow = Domain::of_touching_rings(again, polygons.len(), &options, same);
+        let draft = || Draft::with_room(0, 0);
+        let fast = Domain::of_rings(draft(), &rings, &nesting, None, report).expect("apart");
+        let slow = Domain::of_touching_rings(draft(), again, polygons.len(), &options, same);
         assert_eq!(shown(&fast), shown(&slow.expect("valid")), "{polygons:?}");
     }
     (true, true)
@@ -197,8 +199,7 @@ fn a_ring_lies_above_the_nearest_of_two_edges_from_one_corner() {
     let polygons = [vec![outer, hole]];
     let mut report = Report::default();
     let rings = Rings::clean(&polygons, &Options::default(), &mut report).expect("two rings");
-    let order = rings.order();
-    let nesting = apart(&rings, &order).expect("apart");
+    let nesting = apart(&rings).expect("apart");
     assert_eq!(nesting.around, [Around::Nothing, Around::Inside(0)]);
     assert_eq!(agrees(&polygons, false), (true, true));
 }

@@ -1,6 +1,6 @@
 use super::links::links;
 use super::node::{Bounds, FAN, Map, Node, Powers};
-use crate::domain::rings::{Ring, Rings};
+use crate::domain::rings::Rings;
 use crate::geom::Point;
 
 /// An edge of a ring, or the link between two rings.
@@ -9,9 +9,9 @@ pub(super) struct Item {
     /// The vertices at both ends.
     pub(super) start: u32,
     pub(super) end: u32,
-    pub(super) ring: u32,
-    /// For a link, the position of its ring in the order of the tree.
-    pub(super) link: Option<usize>,
+    /// Position of its ring in the order of the tree.
+    pub(super) rank: u32,
+    pub(super) is_link: bool,
 }
 
 /// A packed tree of boxes, eight to a node, over edges in boundary order, ring after ring.
@@ -28,11 +28,11 @@ pub(super) struct Tree<'a> {
     levels: Vec<usize>,
     /// The rings in the order of the tree.
     pub(super) order: &'a [u32],
-    /// Where in the order of the tree the edges of each of them start.
-    starts: Vec<u32>,
+    /// The first vertex of each of them, and, at the end, the number of vertices.
+    firsts: Vec<u32>,
     /// The links of each of them, if there are several; see [`links`].
     pub(super) links: Vec<[u32; 2]>,
-    /// Position in `order` of the ring of the first edge of each leaf.
+    /// Position in `order` of the ring of the first item of each leaf.
     ranks: Vec<u32>,
     /// Which items of each leaf are the first edges of their rings, and which are links, one bit
     /// each.
@@ -41,8 +41,9 @@ pub(super) struct Tree<'a> {
 }
 
 impl<'a> Tree<'a> {
-    /// The tree over rings in the given order: near ones should follow one another.
-    pub(super) fn new(rings: &'a Rings<'a>, order: &'a [u32]) -> Self {
+    /// The tree over rings, in the order in which they are laid out.
+    pub(super) fn new(rings: &'a Rings<'a>) -> Self {
+        let order = &rings.order[..];
         let links = links(rings, order);
         let n_leaves = (rings.points.len() + links.len()).div_ceil(FAN);
         let mut tree = Self {
@@ -51,7 +52,7 @@ impl<'a> Tree<'a> {
             powers: std::array::from_fn(|k| 1 << k),
             nodes: Vec::with_capacity(n_leaves + n_leaves / (FAN - 1) + FAN),
             levels: vec![0],
-            starts: Vec::with_capacity(order.len()),
+            firsts: Vec::with_capacity(order.len() + 1),
             order,
             links,
             ranks: Vec::with_capacity(n_leaves),
@@ -78,8 +79,8 @@ impl<'a> Tree<'a> {
     fn add_items(&mut self) {
         let (rings, map) = (self.rings, self.map);
         for (rank, &ring) in (0..).zip(self.order) {
-            self.starts.push(self.n_items);
             let points = rings.ring_points(ring);
+            self.firsts.push(rings.rings[ring as usize].first);
             let Some(&first) = points.first() else { continue };
             let mut at = 0;
             while at < points.len() {
@@ -104,6 +105,7 @@ impl<'a> Tree<'a> {
                 self.push(rank, [false, true], Bounds::of(a, b));
             }
         }
+        self.firsts.push(rings.points.len() as u32);
     }
 
     /// Adds an item, and whether it is the first edge of its ring, or a link.
@@ -162,19 +164,19 @@ impl<'a> Tree<'a> {
     /// Item number `k` of a leaf, which must have as many.
     #[inline]
     pub(super) fn item(&self, leaf: usize, k: usize) -> Item {
-        let [heads, links] = self.marks[leaf];
+        let [heads, _] = self.marks[leaf];
         // Rings that start after the first item, but not after this one.
         let started = u32::from(heads & !1) & ((2 << k) - 1);
-        let rank = (self.ranks[leaf] + started.count_ones()) as usize;
-        let ring = self.order[rank];
-        let Ring { first, len, .. } = self.rings.rings[ring as usize];
-        if links >> k & 1 == 1 {
-            let [start, end] = self.links[rank];
-            return Item { start, end, ring, link: Some(rank) };
+        let rank = self.ranks[leaf] + started.count_ones();
+        let (first, end) = (self.firsts[rank as usize], self.firsts[rank as usize + 1]);
+        // Each ring before this one has a link among the items.
+        let start = (leaf * FAN + k) as u32 - rank;
+        if start == end {
+            let [start, end] = self.links[rank as usize];
+            return Item { start, end, rank, is_link: true };
         }
-        let along = (leaf * FAN + k) as u32 - self.starts[rank];
-        let next = if along + 1 == len { 0 } else { along + 1 };
-        Item { start: first + along, end: first + next, ring, link: None }
+        let next = if start + 1 == end { first } else { start + 1 };
+        Item { start, end: next, rank, is_link: false }
     }
 
     /// The items of a leaf.
@@ -191,14 +193,14 @@ impl<'a> Tree<'a> {
     /// The vertices of a leaf's edges, if it holds eight edges of one ring.
     #[inline]
     pub(super) fn chain(&self, leaf: usize) -> Option<[Point; FAN + 1]> {
-        let Item { start, ring, link: None, .. } = self.item(leaf, 0) else { return None };
-        let record = &self.rings.rings[ring as usize];
-        let (first, end) = (start as usize, (record.first + record.len) as usize);
+        let Item { start, rank, is_link: false, .. } = self.item(leaf, 0) else { return None };
+        let (first, end) = (start as usize, self.firsts[rank as usize + 1] as usize);
         let run = self.rings.points.get(first..first + FAN)?;
         if first + FAN > end {
             return None;
         }
-        let last = if first + FAN == end { record.first as usize } else { first + FAN };
+        let last =
+            if first + FAN == end { self.firsts[rank as usize] as usize } else { first + FAN };
         let mut points = [self.rings.points[last]; FAN + 1];
         points[..FAN].copy_from_slice(run);
         Some(points)
