@@ -1,6 +1,6 @@
 //! The tree of boxes against itself.
 
-use super::node::{Bounds, FAN};
+use super::node::{ALL, Bounds, FAN};
 use super::strip::{Lines, Strip, WidePowers};
 use super::tree::{Item, Tree};
 use crate::geom::{Point, orient2d};
@@ -56,11 +56,13 @@ impl Join<'_> {
                 return self.alone(place, &Lines::new(&chain));
             }
             let followers = self.tree.followers(place);
+            let mut met = 0;
             for j in 0..FAN - 1 {
                 let later = 0xfe << j & !(followers & 2 << j);
-                for k in bits(node.meets(&node.child(j), powers) & later) {
-                    self.pair((place, j), (place, k))?;
-                }
+                met |= row(j, node.meets(&node.child(j), powers) & later);
+            }
+            for (j, k) in pairs(met) {
+                self.pair((place, j), (place, k))?;
             }
             return Ok(());
         }
@@ -68,11 +70,13 @@ impl Join<'_> {
         for j in bits(full) {
             self.within(level - 1, place * FAN + j)?;
         }
+        let mut met = 0;
         for j in bits(full) {
-            for k in bits(node.meets(&node.child(j), powers) & (0xfe << j)) {
-                let (one, other) = (place * FAN + j, place * FAN + k);
-                self.between(level - 1, (one, &node.child(j)), (other, &node.child(k)))?;
-            }
+            met |= row(j, node.meets(&node.child(j), powers) & (0xfe << j));
+        }
+        for (j, k) in pairs(met) {
+            let (one, other) = (place * FAN + j, place * FAN + k);
+            self.between(level - 1, (one, &node.child(j)), (other, &node.child(k)))?;
         }
         Ok(())
     }
@@ -103,25 +107,27 @@ impl Join<'_> {
         if near == 0 {
             return Ok(());
         }
-        let mut far = b.meets(own, powers);
+        let mut far = ALL;
         if level > 0 && !self.strips.is_empty() {
             near = self.reaching((level, one), near, (level, other));
-            far = self.reaching((level, other), far, (level, one));
+            far = self.reaching((level, other), b.meets(own, powers), (level, one));
         }
+        let mut met = 0;
         for j in bits(near) {
-            let child = a.child(j);
-            let mut others = b.meets(&child, powers) & far;
-            if level == 0 && other == one + 1 && j == FAN - 1 {
-                others &= !(self.tree.followers(other) & 1);
+            met |= row(j, b.meets(&a.child(j), powers) & far);
+        }
+        if level == 0 {
+            if other == one + 1 {
+                met &= !row(FAN - 1, self.tree.followers(other) & 1);
             }
-            for k in bits(others) {
-                if level == 0 {
-                    self.pair((one, j), (other, k))?;
-                } else {
-                    let (one, other) = (one * FAN + j, other * FAN + k);
-                    self.between(level - 1, (one, &child), (other, &b.child(k)))?;
-                }
+            for (j, k) in pairs(met) {
+                self.pair((one, j), (other, k))?;
             }
+            return Ok(());
+        }
+        for (j, k) in pairs(met) {
+            let (one, other) = (one * FAN + j, other * FAN + k);
+            self.between(level - 1, (one, &a.child(j)), (other, &b.child(k)))?;
         }
         Ok(())
     }
@@ -227,6 +233,24 @@ fn touch((a, b): (Point, Point), (c, d): (Point, Point)) -> bool {
 fn one_side((a, b): (Point, Point), (c, d): (Point, Point)) -> bool {
     let (from, to) = (orient2d(a, b, c), orient2d(a, b, d));
     from > 0.0 && to > 0.0 || from < 0.0 && to < 0.0
+}
+
+/// What item `j` meets, as a row of all pairs.
+#[inline]
+fn row(j: usize, set: u32) -> u64 {
+    u64::from(set) << (FAN * j)
+}
+
+/// The pairs of a set of rows: they are collected first, as few tests for an end are foreseen.
+#[inline]
+fn pairs(mut met: u64) -> impl Iterator<Item = (usize, usize)> {
+    std::iter::from_fn(move || {
+        let first = met.trailing_zeros() as usize;
+        (met != 0).then(|| {
+            met &= met - 1;
+            (first / FAN, first % FAN)
+        })
+    })
 }
 
 /// The numbers of the bits of a set.

@@ -76,20 +76,21 @@ impl Node {
     /// The children whose closed boxes share a point with a box, one bit each.
     #[inline]
     pub(super) fn meets(&self, b: &Bounds, powers: &Powers) -> u32 {
-        let apart: [u32; FAN] = std::array::from_fn(|k| {
+        let mut apart = *powers;
+        for (k, lane) in apart.iter_mut().enumerate() {
             // Signs, not comparisons: compilers make branches of those, which nobody foresees.
             let gaps = (b.max[0] - self.min_x[k]).to_bits()
                 | (self.max_x[k] - b.min[0]).to_bits()
                 | (b.max[1] - self.min_y[k]).to_bits()
                 | (self.max_y[k] - b.min[1]).to_bits();
-            (gaps.cast_signed() >> 31).cast_unsigned() & powers[k]
-        });
+            *lane &= (gaps.cast_signed() >> 31).cast_unsigned();
+        }
         apart.into_iter().fold(ALL, |set, lane| set & !lane)
     }
 }
 
 /// All children of a node, one bit each.
-const ALL: u32 = (1 << FAN) - 1;
+pub(super) const ALL: u32 = (1 << FAN) - 1;
 
 /// 1, 2, 4 to 128: compilers keep to vector instructions if they are read from memory.
 pub(super) type Powers = [u32; FAN];
