@@ -12,6 +12,7 @@ use super::chain::Passed;
 use super::contacts::Contacts;
 use super::course::Course;
 use super::front::Front;
+use super::met::Met;
 use super::rings::HiddenRings;
 use super::touch::{Seen, Touch, touch};
 use super::verify::{Verdict, Verify};
@@ -326,7 +327,7 @@ impl<'a> Search<'a> {
     fn settle(&mut self, gap: &Gap, first: Option<Proposal>) -> Result<Found, EngineError> {
         let mut best = first;
         // Sites seen to cut a disk, or to stand at the end of a governor.
-        let mut seen: Vec<Site> = Vec::new();
+        let mut seen = Met::default();
         // How many of them the last resort has weighed; all there are, if the greatest number.
         let mut known = 0;
         for round in 0..MOST_TRIES {
@@ -343,7 +344,7 @@ impl<'a> Search<'a> {
             });
             let Some((disk, mut exact)) = self.certify(&triple, &proposal.disk) else {
                 self.banned.push(proposal.site);
-                seen.retain(|&s| s != proposal.site);
+                seen.remove(proposal.site);
                 best = None;
                 continue;
             };
@@ -360,8 +361,8 @@ impl<'a> Search<'a> {
                         .may_be_third(gap, site)
                         .then(|| self.proposal_or_exact(gap, site))
                         .flatten();
-                    if best.is_none() && !seen.contains(&site) {
-                        seen.push(site);
+                    if best.is_none() {
+                        seen.insert(site);
                     }
                 }
                 Verdict::Cut(sites) => {
@@ -372,9 +373,7 @@ impl<'a> Search<'a> {
                     });
                     for s in sites {
                         self.watch.check()?;
-                        if !seen.contains(&s) {
-                            seen.push(s);
-                        }
+                        seen.insert(s);
                     }
                     if let Some(next) = cutting
                         && next.position < position
@@ -385,15 +384,15 @@ impl<'a> Search<'a> {
                 Verdict::OffEdge => {
                     // The third governor's line is touched beyond its end.
                     self.banned.push(proposal.site);
-                    seen.retain(|&s| s != proposal.site);
+                    seen.remove(proposal.site);
                     best = None;
                     if proposal.site.is_edge() {
                         let k = proposal.site.index();
                         for s in
                             [self.domain.ahead(Site::edge(k)), self.domain.behind(Site::edge(k))]
                         {
-                            if !seen.contains(&s) && !self.banned.contains(&s) {
-                                seen.push(s);
+                            if !self.banned.contains(&s) {
+                                seen.insert(s);
                             }
                         }
                     }
@@ -403,7 +402,7 @@ impl<'a> Search<'a> {
                         && (self.turns_back(gap, &disk) || !self.is_ahead(gap, &disk, &triple))
                     {
                         self.banned.push(proposal.site);
-                        seen.retain(|&s| s != proposal.site);
+                        seen.remove(proposal.site);
                         best = None;
                         continue;
                     }
@@ -418,12 +417,12 @@ impl<'a> Search<'a> {
     fn last_resort(
         &mut self,
         gap: &Gap,
-        seen: &mut Vec<Site>,
+        seen: &mut Met,
         known: &mut usize,
     ) -> Result<Option<Proposal>, EngineError> {
         for site in [self.domain.ahead(gap.right), self.domain.behind(gap.left)] {
-            if !seen.contains(&site) && !self.banned.contains(&site) {
-                seen.push(site);
+            if !self.banned.contains(&site) {
+                seen.insert(site);
             }
         }
         // Something new was met since the last time: the earliest of it may be the end.
@@ -443,7 +442,7 @@ impl<'a> Search<'a> {
             }
         }
         *known = usize::MAX;
-        *seen = self.everything(gap);
+        *seen = self.everything(gap).into();
         match self.exact_first(gap, seen) {
             Some(site) => Ok(self.proposal_or_exact(gap, site)),
             None => Err(self.broken(gap)),
@@ -451,11 +450,11 @@ impl<'a> Search<'a> {
     }
 
     /// Adds the neighbours along the boundary of some sites.
-    fn widen(&self, gap: &Gap, sites: &mut Vec<Site>) {
+    fn widen(&self, gap: &Gap, sites: &mut Met) {
         for k in 0..sites.len() {
             for site in [self.domain.ahead(sites[k]), self.domain.behind(sites[k])] {
-                if self.may_be_met(gap, site) && !sites.contains(&site) {
-                    sites.push(site);
+                if self.may_be_met(gap, site) {
+                    sites.insert(site);
                 }
             }
         }
