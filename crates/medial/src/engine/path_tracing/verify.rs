@@ -31,6 +31,9 @@ pub(super) enum Verdict {
     OffEdge,
 }
 
+/// Edges that cut a disk after which it is given up.
+const MANY_CUT: usize = 64;
+
 /// An edge that cuts a disk.
 #[derive(Clone, Copy, Debug, Default)]
 struct Cutting {
@@ -158,10 +161,19 @@ impl<'s, 'a> Verify<'s, 'a> {
     fn cuts(&mut self, edge: u32, near: i8) {
         if !self.floating {
             self.cut.push(edge);
+            self.give_up_on_many();
             return;
         }
         self.cutting[self.n_cutting] = Cutting { edge, near, share: 0.0 };
         self.n_cutting += 1;
+    }
+
+    /// Ends the walk where many edges cut the disk and none of them makes a proposal: the disk is far too
+    /// large.
+    fn give_up_on_many(&mut self) {
+        if self.best.is_none() && self.cut.len() >= MANY_CUT {
+            self.scope.reach = 0.0;
+        }
     }
 
     /// Proposes an end with an edge that cuts the disk looked into, and looks into that one from now
@@ -195,6 +207,7 @@ impl<'s, 'a> Verify<'s, 'a> {
             self.link = link;
             self.earlier = (link < self.passed.len()).then(|| self.piece(link));
         }
+        self.give_up_on_many();
         false
     }
 
