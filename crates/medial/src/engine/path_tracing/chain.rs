@@ -23,7 +23,7 @@ use std::cmp::Ordering;
 use super::contacts::follows;
 use super::front::Front;
 use super::rings::{Link, Round};
-use super::search::{Found, Gap, Proposal, SLACK, Search, Start, contact_behind};
+use super::search::{Before, Found, Gap, Proposal, SLACK, Search, Start, contact_behind};
 use super::verify::{Verdict, Verify, cuts_clearly};
 use crate::domain::{Corner, Domain, Edge, Site};
 use crate::geom::{Point, TouchingDisk, Unsure};
@@ -115,7 +115,13 @@ impl Event {
 impl Search<'_> {
     /// The end of the path that leaves `start` between `right` and `left`, with what it passes on
     /// the way in `self.passed`; `None` if doubles and a few exact questions cannot tell.
-    pub fn chase(&mut self, right: Site, left: Site, start: Start) -> Option<Found> {
+    pub fn chase(
+        &mut self,
+        right: Site,
+        left: Site,
+        start: Start,
+        before: Option<Before<'_>>,
+    ) -> Option<Found> {
         self.passed.clear();
         if self.runs_into_corner(right, left) {
             return self.ends_in_corner(right, left, start);
@@ -134,6 +140,10 @@ impl Search<'_> {
                 return self.ends_in_corner(r, l, start);
             }
             let gap = Gap::new(r, l, here, front);
+            if let Some(known) = before.and_then(|before| self.known_end(&gap, start, before)) {
+                self.link = (r, l);
+                return Some(Found::Known(known));
+            }
             let event = self.next_event(&gap);
             if event.is_err() && self.passed.is_empty() {
                 return None;
@@ -194,12 +204,34 @@ impl Search<'_> {
         }
     }
 
+    /// The nearest keypoint ahead that waits for a path between these governors, if no ring lies
+    /// before it.
+    ///
+    /// Both disks are empty and touch both governors, whose footpoints move on from one to the other:
+    /// so this is the path between them, unless a whole ring lies in its pocket.
+    fn known_end(&self, gap: &Gap, anchor: Start, before: Before<'_>) -> Option<u32> {
+        let mut nearest: Option<(u32, TouchingDisk, f64)> = None;
+        for keypoint in before.gaps.keypoints(gap.left, gap.right) {
+            let disk = before.traced.disk(keypoint);
+            let position = gap.course(self.domain).position(&disk);
+            if position > disk.bound + gap.start.doubt + 64.0 * U * self.largest
+                && nearest.is_none_or(|n| position < n.2)
+            {
+                nearest = Some((keypoint, disk, position));
+            }
+        }
+        let (keypoint, disk, _) = nearest?;
+        let advances = self.advances(gap, &disk, 1.0) && self.advances(gap, &disk, -1.0);
+        (advances && self.is_open(gap.right, gap.left, anchor, Round::disk(&disk)))
+            .then_some(keypoint)
+    }
+
     /// The end of a path in the convex corner between its governors, if no ring lies before it.
     #[inline]
     fn ends_in_corner(&mut self, right: Site, left: Site, anchor: Start) -> Option<Found> {
         self.link = (right, left);
         let end = Round::corner(self.domain.edge(left.index()).start);
-        self.is_open(right, left, anchor, end).then_some(Found::Corner(left.index()))
+        self.may_be_open(right, left, anchor, end).then_some(Found::Corner(left.index()))
     }
 
     /// Where a disk of the path is many edges away, a nearer one that the next elements of the
@@ -586,7 +618,7 @@ impl Search<'_> {
                         let slack = disk.bound + here.doubt + 64.0 * U * self.largest;
                         if gap.course(self.domain).position(&disk) <= slack
                             || contact_behind(&contacts, right, left).is_some()
-                            || !self.is_open(right, left, anchor, Round::disk(&disk))
+                            || !self.may_be_open(right, left, anchor, Round::disk(&disk))
                         {
                             return None;
                         }
@@ -630,9 +662,15 @@ impl Search<'_> {
         best
     }
 
+    /// The same, asked only where care is taken.
+    #[inline]
+    fn may_be_open(&self, r: Site, l: Site, anchor: Start, end: Round) -> bool {
+        !self.careful || self.is_open(r, l, anchor, end)
+    }
+
     /// Whether no ring can lie in the pocket of the path passed and one more piece.
     fn is_open(&self, r: Site, l: Site, anchor: Start, end: Round) -> bool {
-        let Some(rings) = self.rings.as_ref().filter(|_| self.careful) else { return true };
+        let Some(rings) = self.rings.as_ref() else { return true };
         let first = Round::start(&anchor);
         let passed = &self.passed;
         let start = move |k: usize| if k == 0 { first } else { Round::disk(&passed[k - 1].disk) };

@@ -5,6 +5,8 @@
 
 use std::ops::Range;
 
+use smallvec::SmallVec;
+
 use super::search::{Found, Gap, Start};
 use crate::domain::{Domain, Site};
 use crate::geom::{BoundsTree, Governor, Point, Rect, TouchingDisk, Visitor};
@@ -12,39 +14,52 @@ use crate::geom::{BoundsTree, Governor, Point, Rect, TouchingDisk, Visitor};
 /// One corner of every hole of a polygon.
 #[derive(Debug)]
 pub(super) struct HiddenRings {
-    /// Reflex corners, sorted along a space-filling curve.
-    corners: Vec<Site>,
+    /// Sorted along a space-filling curve.
+    holes: Vec<Hole>,
     tree: BoundsTree,
+}
+
+/// A reflex corner of a hole.
+#[derive(Clone, Copy, Debug)]
+struct Hole {
+    at: Point,
+    corner: Site,
+    walk: u32,
 }
 
 impl HiddenRings {
     /// The index over the given walks; `None` if none of them is a hole.
     pub fn new(domain: &Domain, walks: Range<usize>) -> Option<Self> {
         let mut bounds = Rect::EMPTY;
-        let mut corners: Vec<(Point, u32)> = Vec::new();
-        for walk in domain.walks()[walks].iter().filter(|w| w.hole) {
+        let mut holes: Vec<Hole> = Vec::new();
+        for number in walks {
+            let walk = &domain.walks()[number];
+            if !walk.hole {
+                continue;
+            }
             // At its first point in lexicographic order the walk of a hole turns right.
             let lowest = (walk.first..walk.first + walk.len).min_by(|&a, &b| {
                 domain.edge(a).start.lexicographic(domain.edge(b).start).then(a.cmp(&b))
             });
             if let Some(k) = lowest {
-                let p = domain.edge(k).start;
-                bounds = bounds.with(p);
-                corners.push((p, k));
+                let at = domain.edge(k).start;
+                bounds = bounds.with(at);
+                holes.push(Hole { at, corner: Site::corner(k), walk: number as u32 });
             }
         }
-        if corners.is_empty() {
+        if holes.is_empty() {
             return None;
         }
         let size =
             (bounds.max - bounds.min).x.max((bounds.max - bounds.min).y).max(f64::MIN_POSITIVE);
-        corners.sort_by_key(|&(p, k)| {
+        holes.sort_by_key(|hole| {
             let cell = |v: f64| (v / size * f64::from(1 << 16)) as u32;
-            (interleave(cell(p.x - bounds.min.x), cell(p.y - bounds.min.y)), k)
+            let place = hole.at - bounds.min;
+            (interleave(cell(place.x), cell(place.y)), hole.corner)
         });
         let tree =
-            BoundsTree::new(0, corners.len() as u32, |k| Rect::EMPTY.with(corners[k as usize].0));
-        Some(Self { corners: corners.iter().map(|&(_, k)| Site::corner(k)).collect(), tree })
+            BoundsTree::new(0, holes.len() as u32, |k| Rect::EMPTY.with(holes[k as usize].at));
+        Some(Self { holes, tree })
     }
 
     /// Corners of rings that may lie in the pocket of a path. Generous: doubles with a margin.
@@ -52,14 +67,15 @@ impl HiddenRings {
         let end = match found {
             Found::Corner(edge) => Round::corner(domain.edge(*edge).start),
             Found::Disk { disk, .. } => Round::disk(disk),
+            // Looked into when it was found.
+            Found::Known(_) => return Vec::new(),
         };
         let start = Round::start(&gap.start);
         let link = Link { right: gap.right, left: gap.left, start, end };
         let mut query = Query {
             rings: self,
-            domain,
             pocket: Pocket::new(domain, &link),
-            link,
+            own: [link.right, link.left].map(|s| domain.edge(s.index()).walk),
             found: Vec::new(),
         };
         self.tree.visit(&mut query);
@@ -67,26 +83,20 @@ impl HiddenRings {
     }
 
     /// Whether any ring may lie in the pocket of one of these pieces of a path.
-    pub fn any(&self, domain: &Domain, links: impl Iterator<Item = Link> + Clone) -> bool {
-        let walk = |s: Site| domain.edge(s.index()).walk;
+    pub fn any(&self, domain: &Domain, links: impl Iterator<Item = Link>) -> bool {
         let mut own = None;
         let mut bounds = Rect::EMPTY;
-        for link in links.clone() {
-            own = Some((walk(link.right), walk(link.left)));
-            bounds = bounds.union(Pocket::new(domain, &link).bounds);
+        let mut pockets: SmallVec<[Pocket; 8]> = SmallVec::new();
+        for link in links {
+            own = Some([link.right, link.left].map(|s| domain.edge(s.index()).walk));
+            let pocket = Pocket::new(domain, &link);
+            bounds = bounds.union(pocket.bounds);
+            pockets.push(pocket);
         }
-        let Some((right, left)) = own else { return false };
-        let mut near = Near { bounds, found: Vec::new() };
+        let Some(own) = own else { return false };
+        let mut near = Near { rings: self, bounds, pockets: &pockets, own, any: false };
         self.tree.visit(&mut near);
-        near.found.iter().any(|&k| {
-            let site = self.corners[k as usize];
-            let ring = walk(site);
-            ring != right
-                && ring != left
-                && links
-                    .clone()
-                    .any(|link| Pocket::new(domain, &link).holds(domain.edge(site.index()).start))
-        })
+        near.any
     }
 }
 
@@ -139,19 +149,30 @@ pub(super) struct Link {
     pub end: Round,
 }
 
-/// The items of a box.
-struct Near {
+/// Whether a hole may lie in one of some pockets.
+struct Near<'q> {
+    rings: &'q HiddenRings,
+    /// The box of all pockets.
     bounds: Rect,
-    found: Vec<u32>,
+    pockets: &'q [Pocket],
+    /// Walks of the governors: they are touched, so they do not lie in a pocket whole.
+    own: [u32; 2],
+    any: bool,
 }
 
-impl Visitor for Near {
+impl Visitor for Near<'_> {
+    #[inline]
     fn enters(&self, bounds: &Rect, _items: Range<u32>) -> bool {
         bounds.meets(&self.bounds)
     }
 
+    #[inline]
     fn item(&mut self, item: u32) {
-        self.found.push(item);
+        let Hole { at, walk, .. } = self.rings.holes[item as usize];
+        if self.bounds.holds(at) && !self.own.contains(&walk) && !self.any {
+            self.any =
+                self.pockets.iter().any(|pocket| pocket.bounds.holds(at) && pocket.holds(at));
+        }
     }
 }
 
@@ -220,9 +241,9 @@ impl Pocket {
 
 struct Query<'q> {
     rings: &'q HiddenRings,
-    domain: &'q Domain,
-    link: Link,
     pocket: Pocket,
+    /// Walks of the governors: they are touched, so they do not lie in the pocket whole.
+    own: [u32; 2],
     found: Vec<Site>,
 }
 
@@ -232,12 +253,9 @@ impl Visitor for Query<'_> {
     }
 
     fn item(&mut self, item: u32) {
-        let site = self.rings.corners[item as usize];
-        let walk = |s: Site| self.domain.edge(s.index()).walk;
-        // The rings of the governors are touched, so they do not lie in the pocket whole.
-        let own = walk(site) == walk(self.link.right) || walk(site) == walk(self.link.left);
-        if !own && self.pocket.holds(self.domain.edge(site.index()).start) {
-            self.found.push(site);
+        let Hole { at, corner, walk } = self.rings.holes[item as usize];
+        if !self.own.contains(&walk) && self.pocket.bounds.holds(at) && self.pocket.holds(at) {
+            self.found.push(corner);
         }
     }
 }

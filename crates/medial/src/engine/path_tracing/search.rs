@@ -11,7 +11,9 @@ use std::sync::{Arc, OnceLock};
 use super::chain::Passed;
 use super::contacts::Contacts;
 use super::course::Course;
+use super::finish::Traced;
 use super::front::Front;
+use super::gaps::Gaps;
 use super::rings::HiddenRings;
 use super::touch::{Seen, Touch, touch};
 use super::verify::{Verdict, Verify};
@@ -51,6 +53,15 @@ pub(super) enum Found {
     /// At a keypoint: its disk, three sites that define it, and all its governors in
     /// counterclockwise order; whether the disk is fixed by them, and not by the way it was found.
     Disk { disk: TouchingDisk, triple: [Site; 3], contacts: Contacts, fixed: bool },
+    /// At a keypoint that is known already, at its open gap between these governors.
+    Known(u32),
+}
+
+/// What was traced before, for paths that may close a loop.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Before<'t> {
+    pub gaps: &'t Gaps,
+    pub traced: &'t Traced,
 }
 
 #[derive(Clone, Copy, Debug)]
