@@ -1,65 +1,35 @@
 //! Whole rings that hide between two empty disks of one path.
 //!
 //! Two empty disks on a path and the footpoints between them close a pocket that only a complete
-//! boundary walk can occupy: so one corner of each hole, in a small index, is enough.
+//! boundary walk can occupy: so one point of each hole, in a small index, is enough.
 
 use std::ops::Range;
+use std::sync::OnceLock;
 
 use smallvec::SmallVec;
 
+use super::holes::{Hole, Holes};
 use super::search::{Found, Gap, Start};
 use crate::domain::{Domain, Site};
 use crate::geom::{BoundsTree, Governor, Point, Rect, TouchingDisk, Visitor};
 
-/// One corner of every hole of a polygon.
+/// The holes of a polygon, as far as somebody asks for them.
 #[derive(Debug)]
-pub(super) struct HiddenRings {
-    /// Sorted along a space-filling curve.
-    holes: Vec<Hole>,
-    tree: BoundsTree,
+pub(super) struct Rings {
+    holes: Holes,
+    hidden: OnceLock<HiddenRings>,
 }
 
-/// A reflex corner of a hole.
-#[derive(Clone, Copy, Debug)]
-struct Hole {
-    at: Point,
-    corner: Site,
-    walk: u32,
-}
-
-impl HiddenRings {
-    /// The index over the given walks; `None` if none of them is a hole.
+impl Rings {
+    /// The holes among the given walks; `None` if there is none.
     pub fn new(domain: &Domain, walks: Range<usize>) -> Option<Self> {
-        let mut bounds = Rect::EMPTY;
-        let mut holes: Vec<Hole> = Vec::new();
-        for number in walks {
-            let walk = &domain.walks()[number];
-            if !walk.hole {
-                continue;
-            }
-            // At its first point in lexicographic order the walk of a hole turns right.
-            let lowest = (walk.first..walk.first + walk.len).min_by(|&a, &b| {
-                domain.edge(a).start.lexicographic(domain.edge(b).start).then(a.cmp(&b))
-            });
-            if let Some(k) = lowest {
-                let at = domain.edge(k).start;
-                bounds = bounds.with(at);
-                holes.push(Hole { at, corner: Site::corner(k), walk: number as u32 });
-            }
-        }
-        if holes.is_empty() {
-            return None;
-        }
-        let size =
-            (bounds.max - bounds.min).x.max((bounds.max - bounds.min).y).max(f64::MIN_POSITIVE);
-        holes.sort_by_key(|hole| {
-            let cell = |v: f64| (v / size * f64::from(1 << 16)) as u32;
-            let place = hole.at - bounds.min;
-            (interleave(cell(place.x), cell(place.y)), hole.corner)
-        });
-        let tree =
-            BoundsTree::new(0, holes.len() as u32, |k| Rect::EMPTY.with(holes[k as usize].at));
-        Some(Self { holes, tree })
+        let any = domain.walks()[walks.clone()].iter().any(|walk| walk.hole);
+        let holes = any.then(|| Holes::new(domain, walks))?;
+        Some(Self { holes, hidden: OnceLock::new() })
+    }
+
+    fn hidden(&self) -> &HiddenRings {
+        self.hidden.get_or_init(|| HiddenRings::new(&self.holes))
     }
 
     /// Corners of rings that may lie in the pocket of a path. Generous: doubles with a margin.
@@ -72,31 +42,68 @@ impl HiddenRings {
         };
         let start = Round::start(&gap.start);
         let link = Link { right: gap.right, left: gap.left, start, end };
-        let mut query = Query {
-            rings: self,
-            pocket: Pocket::new(domain, &link),
-            own: [link.right, link.left].map(|s| domain.edge(s.index()).walk),
-            found: Vec::new(),
+        let pockets = Pockets::new(domain, std::iter::once(link));
+        let mut suspects = Vec::new();
+        let mut suspect = |walk: u32| {
+            suspects.extend(lowest(domain, walk));
+            true
         };
-        self.tree.visit(&mut query);
-        query.found
+        if !self.holes.each(&pockets, &mut suspect) {
+            self.hidden().each(&pockets, &mut suspect);
+        }
+        suspects
     }
 
     /// Whether any ring may lie in the pocket of one of these pieces of a path.
     pub fn any(&self, domain: &Domain, links: impl Iterator<Item = Link>) -> bool {
-        let mut own = None;
-        let mut bounds = Rect::EMPTY;
-        let mut pockets: SmallVec<[Pocket; 8]> = SmallVec::new();
-        for link in links {
-            own = Some([link.right, link.left].map(|s| domain.edge(s.index()).walk));
-            let pocket = Pocket::new(domain, &link);
-            bounds = bounds.union(pocket.bounds);
-            pockets.push(pocket);
+        let pockets = Pockets::new(domain, links);
+        let mut any = false;
+        let mut suspect = |_| {
+            any = true;
+            false
+        };
+        if !self.holes.each(&pockets, &mut suspect) {
+            self.hidden().each(&pockets, &mut suspect);
         }
-        let Some(own) = own else { return false };
-        let mut near = Near { rings: self, bounds, pockets: &pockets, own, any: false };
-        self.tree.visit(&mut near);
-        near.any
+        any
+    }
+}
+
+/// The first point of a hole in lexicographic order, where its walk turns right.
+fn lowest(domain: &Domain, walk: u32) -> Option<Site> {
+    let walk = domain.walks()[walk as usize];
+    let lowest = (walk.first..walk.first + walk.len)
+        .min_by(|&a, &b| domain.edge(a).start.lexicographic(domain.edge(b).start).then(a.cmp(&b)));
+    lowest.map(Site::corner)
+}
+
+/// A tree over one point of every hole, wherever they are.
+#[derive(Debug)]
+struct HiddenRings {
+    /// Sorted along a space-filling curve.
+    holes: Vec<Hole>,
+    tree: BoundsTree,
+}
+
+impl HiddenRings {
+    fn new(holes: &Holes) -> Self {
+        let mut holes = holes.all().to_vec();
+        let bounds = holes.iter().fold(Rect::EMPTY, |all, hole| all.with(hole.at));
+        let size =
+            (bounds.max - bounds.min).x.max((bounds.max - bounds.min).y).max(f64::MIN_POSITIVE);
+        holes.sort_by_key(|hole| {
+            let cell = |v: f64| (v / size * f64::from(1 << 16)) as u32;
+            let place = hole.at - bounds.min;
+            (interleave(cell(place.x), cell(place.y)), hole.walk)
+        });
+        let tree =
+            BoundsTree::new(0, holes.len() as u32, |k| Rect::EMPTY.with(holes[k as usize].at));
+        Self { holes, tree }
+    }
+
+    /// As [`Holes::each`], however long it takes.
+    fn each(&self, pockets: &Pockets, suspect: &mut dyn FnMut(u32) -> bool) {
+        self.tree.visit(&mut Near { rings: self, pockets, suspect, done: false });
     }
 }
 
@@ -149,29 +156,56 @@ pub(super) struct Link {
     pub end: Round,
 }
 
-/// Whether a hole may lie in one of some pockets.
-struct Near<'q> {
-    rings: &'q HiddenRings,
-    /// The box of all pockets.
-    bounds: Rect,
-    pockets: &'q [Pocket],
+/// The pockets of some pieces of one path.
+#[derive(Debug)]
+pub(super) struct Pockets {
+    pockets: SmallVec<[Pocket; 4]>,
+    /// The box of all.
+    pub bounds: Rect,
     /// Walks of the governors: they are touched, so they do not lie in a pocket whole.
     own: [u32; 2],
-    any: bool,
+}
+
+impl Pockets {
+    fn new(domain: &Domain, links: impl Iterator<Item = Link>) -> Self {
+        let mut own = [u32::MAX; 2];
+        let mut bounds = Rect::EMPTY;
+        let mut pockets = SmallVec::new();
+        for link in links {
+            own = [link.right, link.left].map(|s| domain.edge(s.index()).walk);
+            let pocket = Pocket::new(domain, &link);
+            bounds = bounds.union(pocket.bounds);
+            pockets.push(pocket);
+        }
+        Self { pockets, bounds, own }
+    }
+
+    /// Whether a ring with this point, of this walk, may lie in one of them.
+    #[inline]
+    pub fn may_hold(&self, at: Point, walk: u32) -> bool {
+        self.bounds.holds(at)
+            && !self.own.contains(&walk)
+            && self.pockets.iter().any(|pocket| pocket.bounds.holds(at) && pocket.holds(at))
+    }
+}
+
+/// The walks of holes that may lie in one of some pockets.
+struct Near<'q> {
+    rings: &'q HiddenRings,
+    pockets: &'q Pockets,
+    suspect: &'q mut dyn FnMut(u32) -> bool,
+    done: bool,
 }
 
 impl Visitor for Near<'_> {
-    #[inline]
     fn enters(&self, bounds: &Rect, _items: Range<u32>) -> bool {
-        bounds.meets(&self.bounds)
+        !self.done && bounds.meets(&self.pockets.bounds)
     }
 
-    #[inline]
     fn item(&mut self, item: u32) {
-        let Hole { at, walk, .. } = self.rings.holes[item as usize];
-        if self.bounds.holds(at) && !self.own.contains(&walk) && !self.any {
-            self.any =
-                self.pockets.iter().any(|pocket| pocket.bounds.holds(at) && pocket.holds(at));
+        let Hole { at, walk } = self.rings.holes[item as usize];
+        if !self.done && self.pockets.may_hold(at, walk) {
+            self.done = !(self.suspect)(walk);
         }
     }
 }
@@ -236,26 +270,5 @@ impl Pocket {
             }
         }
         inside
-    }
-}
-
-struct Query<'q> {
-    rings: &'q HiddenRings,
-    pocket: Pocket,
-    /// Walks of the governors: they are touched, so they do not lie in the pocket whole.
-    own: [u32; 2],
-    found: Vec<Site>,
-}
-
-impl Visitor for Query<'_> {
-    fn enters(&self, bounds: &Rect, _items: Range<u32>) -> bool {
-        bounds.meets(&self.pocket.bounds)
-    }
-
-    fn item(&mut self, item: u32) {
-        let Hole { at, corner, walk } = self.rings.holes[item as usize];
-        if !self.own.contains(&walk) && self.pocket.bounds.holds(at) && self.pocket.holds(at) {
-            self.found.push(corner);
-        }
     }
 }

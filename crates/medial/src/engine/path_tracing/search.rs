@@ -14,7 +14,7 @@ use super::course::Course;
 use super::finish::Traced;
 use super::front::Front;
 use super::gaps::Gaps;
-use super::rings::HiddenRings;
+use super::rings::Rings;
 use super::touch::{Seen, Touch, touch};
 use super::verify::{Verdict, Verify};
 use crate::domain::{Corner, Domain, Site};
@@ -133,7 +133,7 @@ pub(super) struct Index {
     tree: Arc<CapsuleTree>,
     /// The tree sorted anew, if anybody needs it.
     sorted: Arc<OnceLock<Arc<CapsuleTree>>>,
-    rings: Option<Arc<HiddenRings>>,
+    rings: Option<Arc<Rings>>,
 }
 
 impl Index {
@@ -142,7 +142,7 @@ impl Index {
         let first = domain.walks()[walks.start].first;
         let n: u32 = domain.walks()[walks.clone()].iter().map(|w| w.len).sum();
         let tree = CapsuleTree::new(first, n, |k| (domain.edge(k).start, domain.end(k)));
-        let rings = HiddenRings::new(domain, walks);
+        let rings = Rings::new(domain, walks);
         Self { tree: Arc::new(tree), sorted: Arc::default(), rings: rings.map(Arc::new) }
     }
 }
@@ -160,7 +160,7 @@ pub(super) struct Search<'a> {
     work: Cell<(u64, u64)>,
     /// No disk inside the polygon has a larger radius.
     pub largest: f64,
-    pub rings: Option<Arc<HiddenRings>>,
+    pub rings: Option<Arc<Rings>>,
     pub banned: Vec<Site>,
     /// Whether every piece of a path is searched for whole rings, and not only counted on in the end
     /// that every ring governs something.
