@@ -26,6 +26,7 @@ use super::rings::{Link, Round};
 use super::search::{Before, Found, Gap, Proposal, SLACK, Search, Start, contact_behind};
 use super::verify::{Verdict, Verify, cuts_clearly};
 use crate::domain::{Corner, Domain, Edge, Site};
+use crate::geom::predicates::{First, Leaving, two_ends};
 use crate::geom::{Point, TouchingDisk, Unsure};
 
 /// Half an ulp of 1.
@@ -488,22 +489,42 @@ impl Search<'_> {
                 let b = self.leave(left, r)?.ok_or(Unsure)?;
                 first(self, Some(b), &[Reach::Within])
             }
-            Reach::Level => {
-                let exact = self.certified(&[r, right.site, l], a.disk());
-                let (from, to) = (self.domain.edge(left.edge).start, self.domain.end(left.edge));
-                match exact.along(from, to, left.at) {
-                    Ordering::Greater => Ok(Some(a)),
-                    Ordering::Less => {
-                        let b = self.leave(left, r)?.ok_or(Unsure)?;
-                        first(self, Some(b), &[Reach::Within, Reach::Level])
-                    }
-                    Ordering::Equal => {
-                        self.tie = Some((right.site, left.site));
-                        Ok(Some(a))
-                    }
+            Reach::Level => match self.level(r, l, &right, &left, a.disk()) {
+                Ordering::Greater => Ok(Some(a)),
+                Ordering::Less => {
+                    let b = self.leave(left, r)?.ok_or(Unsure)?;
+                    first(self, Some(b), &[Reach::Within, Reach::Level])
                 }
-            }
+                Ordering::Equal => {
+                    self.tie = Some((right.site, left.site));
+                    Ok(Some(a))
+                }
+            },
         }
+    }
+
+    /// Where the disk in which the right governor leaves lies to the normal on which the left one does,
+    /// as seen along the boundary.
+    fn level(
+        &self,
+        r: Site,
+        l: Site,
+        right: &Normal,
+        left: &Normal,
+        disk: &TouchingDisk,
+    ) -> Ordering {
+        let ends = |k: u32| (self.domain.edge(k).start, self.domain.end(k));
+        let (from, to) = ends(left.edge);
+        if r.is_edge() && l.is_edge() {
+            // Their path is straight, and crosses each normal once.
+            let (a, b) = ends(right.edge);
+            return match two_ends(Leaving::Edge(a, b), Leaving::Edge(from, to)) {
+                First::Right => Ordering::Greater,
+                First::Both => Ordering::Equal,
+                First::Left => Ordering::Less,
+            };
+        }
+        self.certified(&[r, right.site, l], disk).along(from, to, left.at)
     }
 
     /// Takes note of a transition and gives the governors of the path beyond it.
@@ -539,6 +560,10 @@ impl Search<'_> {
             if end.is_some_and(|e| disk.radius * LEAP > e.disk.radius) {
                 break;
             }
+            if let Some((link, hit)) = self.among_holes(anchor, gap.front, &disk) {
+                self.go_back(link);
+                return Some(hit);
+            }
             let start = (&anchor, &self.passed[..]);
             let mut verify = Verify::hunting(self, gap, start, disk);
             verify.run();
@@ -553,6 +578,30 @@ impl Search<'_> {
             reach *= LEAP;
         }
         end
+    }
+
+    /// A better proposal than the disk at the end of a path, and the link that it lies on, if the holes
+    /// nearby make one.
+    fn among_holes(
+        &self,
+        anchor: Start,
+        front: Option<Front>,
+        disk: &TouchingDisk,
+    ) -> Option<(usize, Proposal)> {
+        let rings = self.rings.as_ref()?;
+        let (right, left) = self.link;
+        let own = [right, left].map(|s| self.domain.edge(s.index()).walk);
+        let ahead = rings.ahead(&anchor, disk, own);
+        if ahead.is_empty() {
+            return None;
+        }
+        let here = self.passed.last().map_or(anchor, |p| Start::at(&p.disk));
+        let gap = Gap::new(right, left, here, front);
+        let mut verify = Verify::hunting(self, &gap, (&anchor, &self.passed[..]), *disk);
+        for (_, walk) in ahead {
+            verify.look_at(&self.domain.walks()[walk as usize]);
+        }
+        verify.best().map(|best| (verify.link(), best))
     }
 
     /// Drops what was passed from a link on, whose governors are then in `self.link`.
@@ -572,6 +621,10 @@ impl Search<'_> {
     ) -> Option<Found> {
         // The exact disk of the proposal, where only exact arithmetic made it.
         let mut exact = None;
+        if let Some((link, nearer)) = self.among_holes(anchor, front, &end.disk) {
+            self.go_back(link);
+            end = nearer;
+        }
         for _ in 0..MOST_ROUNDS {
             if self.watch.is_over() {
                 return None;

@@ -1,21 +1,52 @@
-//! One point of every hole of a polygon, in the cells of a grid.
+//! The holes of a polygon, in the cells of a grid: what may hide, and what a path may meet.
 
 use std::ops::Range;
 
+use smallvec::SmallVec;
+
 use super::rings::Pockets;
-use crate::domain::Domain;
-use crate::geom::{Point, Rect};
+use super::search::Start;
+use crate::domain::{Domain, Walk};
+use crate::geom::{Point, Rect, TouchingDisk};
 
 /// Cells, and holes in them, that a question looks at before it is given up.
 const MOST_CELLS: usize = 64;
 const MOST_HOLES: usize = 64;
 
+/// Edges of a hole that is looked at by itself, and such holes for one disk.
+const MOST_EDGES: u32 = 16;
+const MOST_AHEAD: usize = 3;
+
 /// A point of a hole's boundary walk.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Hole {
+    /// On the walk.
     pub at: Point,
+    /// Middle of its corners, and about their distance from there.
+    centre: Point,
+    radius: f32,
     pub walk: u32,
+    len: u32,
 }
+
+impl Hole {
+    fn new(domain: &Domain, number: u32) -> Self {
+        let Walk { first, len, .. } = domain.walks()[number as usize];
+        let at = domain.edge(first).start;
+        let mut hole = Self { at, centre: at, radius: 0.0, walk: number, len };
+        if len <= MOST_EDGES {
+            let sum = (first..first + len)
+                .fold(Point::default(), |sum, k| sum + (domain.edge(k).start - at));
+            hole.centre = at + sum * (1.0 / f64::from(len));
+            let far = (first..first + len).map(|k| (domain.edge(k).start - hole.centre).norm());
+            hole.radius = (far.sum::<f64>() / f64::from(len)) as f32;
+        }
+        hole
+    }
+}
+
+/// Holes ahead of a path.
+pub(super) type Ahead = SmallVec<[(f64, u32); 16]>;
 
 /// About one hole to a cell, if they are spread evenly.
 #[derive(Debug)]
@@ -36,7 +67,7 @@ impl Holes {
     pub fn new(domain: &Domain, walks: Range<usize>) -> Self {
         let of = |number: usize| {
             let walk = &domain.walks()[number];
-            walk.hole.then(|| Hole { at: domain.edge(walk.first).start, walk: number as u32 })
+            walk.hole.then(|| Hole::new(domain, number as u32))
         };
         let unsorted: Vec<Hole> = walks.filter_map(of).collect();
         let bounds = unsorted.iter().fold(Rect::EMPTY, |all, hole| all.with(hole.at));
@@ -85,6 +116,36 @@ impl Holes {
         let place = at - self.corner;
         let (x, y) = ((place.x * self.scale.x) as usize, (place.y * self.scale.y) as usize);
         (x.min(self.columns - 1), y.min(self.rows - 1))
+    }
+
+    /// See [`super::rings::Rings::ahead`].
+    pub fn ahead(&self, start: &Start, disk: &TouchingDisk, own: [u32; 2]) -> Ahead {
+        let mut ahead = Ahead::new();
+        let centre = disk.position();
+        let reach = Point::new(disk.radius, disk.radius);
+        let ((left, low), (right, high)) = (self.cell(centre - reach), self.cell(centre + reach));
+        if (high + 1 - low) * (right + 1 - left) > MOST_CELLS {
+            return ahead;
+        }
+        for k in low..=high {
+            let first = self.starts[k * self.columns + left] as usize;
+            let end = self.starts[k * self.columns + right + 1] as usize;
+            if end - first > MOST_HOLES {
+                return Ahead::new();
+            }
+            for hole in &self.holes[first..end] {
+                let size = f64::from(hole.radius);
+                let (inner, outer) = (disk.radius + size, start.radius + size);
+                let inside = inner * inner - (centre - hole.centre).norm2();
+                if inside > 0.0 && hole.len <= MOST_EDGES && !own.contains(&hole.walk) {
+                    let outside = (start.centre - hole.centre).norm2() - outer * outer;
+                    ahead.push((outside / (outside + inside), hole.walk));
+                }
+            }
+        }
+        ahead.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
+        ahead.truncate(MOST_AHEAD);
+        ahead
     }
 
     /// All of them, in some order.

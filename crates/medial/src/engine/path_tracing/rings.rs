@@ -8,7 +8,7 @@ use std::sync::OnceLock;
 
 use smallvec::SmallVec;
 
-use super::holes::{Hole, Holes};
+use super::holes::{Ahead, Hole, Holes};
 use super::search::{Found, Gap, Start};
 use crate::domain::{Domain, Site};
 use crate::geom::{BoundsTree, Governor, Point, Rect, TouchingDisk, Visitor};
@@ -52,6 +52,12 @@ impl Rings {
             self.hidden().each(&pockets, &mut suspect);
         }
         suspects
+    }
+
+    /// Holes that a disk may reach, other than two walks: about the share of the way from the start to
+    /// the disk at which it does, least first, and the walk. Proposals only; empty where there are many.
+    pub fn ahead(&self, start: &Start, disk: &TouchingDisk, own: [u32; 2]) -> Ahead {
+        self.holes.ahead(start, disk, own)
     }
 
     /// Whether any ring may lie in the pocket of one of these pieces of a path.
@@ -203,7 +209,7 @@ impl Visitor for Near<'_> {
     }
 
     fn item(&mut self, item: u32) {
-        let Hole { at, walk } = self.rings.holes[item as usize];
+        let Hole { at, walk, .. } = self.rings.holes[item as usize];
         if !self.done && self.pockets.may_hold(at, walk) {
             self.done = !(self.suspect)(walk);
         }
