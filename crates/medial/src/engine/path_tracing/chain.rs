@@ -515,10 +515,11 @@ impl Search<'_> {
     ) -> Ordering {
         let ends = |k: u32| (self.domain.edge(k).start, self.domain.end(k));
         let (from, to) = ends(left.edge);
-        if r.is_edge() && l.is_edge() {
+        if r.is_edge() == l.is_edge() {
             // Their path is straight, and crosses each normal once.
+            let of = if r.is_edge() { Leaving::Edge } else { Leaving::Corner };
             let (a, b) = ends(right.edge);
-            return match two_ends(Leaving::Edge(a, b), Leaving::Edge(from, to)) {
+            return match two_ends(of(a, b), of(from, to)) {
                 First::Right => Ordering::Greater,
                 First::Both => Ordering::Equal,
                 First::Left => Ordering::Less,
