@@ -124,7 +124,7 @@ impl Holes {
         let centre = disk.position();
         let reach = Point::new(disk.radius, disk.radius);
         let ((left, low), (right, high)) = (self.cell(centre - reach), self.cell(centre + reach));
-        if (high + 1 - low) * (right + 1 - left) > MOST_CELLS {
+        if (high + 1).saturating_sub(low) * (right + 1).saturating_sub(left) > MOST_CELLS {
             return ahead;
         }
         for k in low..=high {
