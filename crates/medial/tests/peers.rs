@@ -211,3 +211,38 @@ fn two_holes_in_one_pocket_are_both_found() {
     assert_eq!(axis.paths().len(), axis.keypoints().len() + 1, "two cycles");
     assert_eq!(certify(&domain), Ok(()));
 }
+
+#[test]
+fn islands_in_a_channel_are_not_passed_over_where_what_lies_beyond_is_known() {
+    // Three channels along two long holes, and islands in them: between two of its keypoints that wait
+    // for a path there may be islands that nothing has met yet.
+    let mut random = Random(11);
+    for trial in 0..200 {
+        let rectangle = |x0: f64, y0: f64, x1: f64, y1: f64| {
+            vec![Point::new(x0, y0), Point::new(x1, y0), Point::new(x1, y1), Point::new(x0, y1)]
+        };
+        let mut polygon = vec![rectangle(0.0, 0.0, 60.0, 21.0)];
+        for y in [3.0, 12.0] {
+            let mut hole = rectangle(3.0, y, 57.0, y + 6.0);
+            hole.reverse();
+            polygon.push(hole);
+        }
+        for channel in 0..3 {
+            let mut x = 4.0;
+            while x < 56.0 {
+                let size = 10f64.powf(-1.0 - 3.0 * random.unit());
+                let y = 0.3 + f64::from(channel) * 9.0 + 2.4 * random.unit();
+                let corner = |k: u32| {
+                    Point::new(x + [0.0, 0.0, size][k as usize], y + [0.0, size, 0.0][k as usize])
+                };
+                polygon.push((0..3).map(corner).collect());
+                x += 0.2 + 12.0 * random.unit() * random.unit();
+            }
+        }
+        let holes = polygon.len() - 1;
+        let domain = shapes::of(&[polygon]).unwrap();
+        let axis = path_tracing(&domain).unwrap();
+        assert_eq!(axis.paths().len(), axis.keypoints().len() - 1 + holes, "trial {trial}");
+        assert_eq!(certify(&domain), Ok(()), "trial {trial}");
+    }
+}

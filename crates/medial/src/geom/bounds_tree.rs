@@ -47,6 +47,13 @@ impl Rect {
         dx * dx + dy * dy
     }
 
+    /// Whether the closed box holds a point.
+    #[inline]
+    #[must_use]
+    pub fn holds(&self, p: Point) -> bool {
+        self.min.x <= p.x && p.x <= self.max.x && self.min.y <= p.y && p.y <= self.max.y
+    }
+
     /// Whether the closed boxes share a point.
     #[inline]
     #[must_use]

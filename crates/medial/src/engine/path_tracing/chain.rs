@@ -23,9 +23,10 @@ use std::cmp::Ordering;
 use super::contacts::follows;
 use super::front::Front;
 use super::rings::{Link, Round};
-use super::search::{Found, Gap, Proposal, SLACK, Search, Start, contact_behind};
+use super::search::{Before, Found, Gap, Proposal, SLACK, Search, Start, contact_behind};
 use super::verify::{Verdict, Verify, cuts_clearly};
 use crate::domain::{Corner, Domain, Edge, Site};
+use crate::geom::predicates::{First, Leaving, two_ends};
 use crate::geom::{Point, TouchingDisk, Unsure};
 
 /// Half an ulp of 1.
@@ -115,7 +116,13 @@ impl Event {
 impl Search<'_> {
     /// The end of the path that leaves `start` between `right` and `left`, with what it passes on
     /// the way in `self.passed`; `None` if doubles and a few exact questions cannot tell.
-    pub fn chase(&mut self, right: Site, left: Site, start: Start) -> Option<Found> {
+    pub fn chase(
+        &mut self,
+        right: Site,
+        left: Site,
+        start: Start,
+        before: Option<Before<'_>>,
+    ) -> Option<Found> {
         self.passed.clear();
         if self.runs_into_corner(right, left) {
             return self.ends_in_corner(right, left, start);
@@ -134,6 +141,10 @@ impl Search<'_> {
                 return self.ends_in_corner(r, l, start);
             }
             let gap = Gap::new(r, l, here, front);
+            if let Some(known) = before.and_then(|before| self.known_end(&gap, start, before)) {
+                self.link = (r, l);
+                return Some(Found::Known(known));
+            }
             let event = self.next_event(&gap);
             if event.is_err() && self.passed.is_empty() {
                 return None;
@@ -194,12 +205,34 @@ impl Search<'_> {
         }
     }
 
+    /// The nearest keypoint ahead that waits for a path between these governors, if no ring lies
+    /// before it.
+    ///
+    /// Both disks are empty and touch both governors, whose footpoints move on from one to the other:
+    /// so this is the path between them, unless a whole ring lies in its pocket.
+    fn known_end(&self, gap: &Gap, anchor: Start, before: Before<'_>) -> Option<u32> {
+        let mut nearest: Option<(u32, TouchingDisk, f64)> = None;
+        for keypoint in before.gaps.keypoints(gap.left, gap.right) {
+            let disk = before.traced.disk(keypoint);
+            let position = gap.course(self.domain).position(&disk);
+            if position > disk.bound + gap.start.doubt + 64.0 * U * self.largest
+                && nearest.is_none_or(|n| position < n.2)
+            {
+                nearest = Some((keypoint, disk, position));
+            }
+        }
+        let (keypoint, disk, _) = nearest?;
+        let advances = self.advances(gap, &disk, 1.0) && self.advances(gap, &disk, -1.0);
+        (advances && self.is_open(gap.right, gap.left, anchor, Round::disk(&disk)))
+            .then_some(keypoint)
+    }
+
     /// The end of a path in the convex corner between its governors, if no ring lies before it.
     #[inline]
     fn ends_in_corner(&mut self, right: Site, left: Site, anchor: Start) -> Option<Found> {
         self.link = (right, left);
         let end = Round::corner(self.domain.edge(left.index()).start);
-        self.is_open(right, left, anchor, end).then_some(Found::Corner(left.index()))
+        self.may_be_open(right, left, anchor, end).then_some(Found::Corner(left.index()))
     }
 
     /// Where a disk of the path is many edges away, a nearer one that the next elements of the
@@ -456,22 +489,43 @@ impl Search<'_> {
                 let b = self.leave(left, r)?.ok_or(Unsure)?;
                 first(self, Some(b), &[Reach::Within])
             }
-            Reach::Level => {
-                let exact = self.certified(&[r, right.site, l], a.disk());
-                let (from, to) = (self.domain.edge(left.edge).start, self.domain.end(left.edge));
-                match exact.along(from, to, left.at) {
-                    Ordering::Greater => Ok(Some(a)),
-                    Ordering::Less => {
-                        let b = self.leave(left, r)?.ok_or(Unsure)?;
-                        first(self, Some(b), &[Reach::Within, Reach::Level])
-                    }
-                    Ordering::Equal => {
-                        self.tie = Some((right.site, left.site));
-                        Ok(Some(a))
-                    }
+            Reach::Level => match self.level(r, l, &right, &left, a.disk()) {
+                Ordering::Greater => Ok(Some(a)),
+                Ordering::Less => {
+                    let b = self.leave(left, r)?.ok_or(Unsure)?;
+                    first(self, Some(b), &[Reach::Within, Reach::Level])
                 }
-            }
+                Ordering::Equal => {
+                    self.tie = Some((right.site, left.site));
+                    Ok(Some(a))
+                }
+            },
         }
+    }
+
+    /// Where the disk in which the right governor leaves lies to the normal on which the left one does,
+    /// as seen along the boundary.
+    fn level(
+        &self,
+        r: Site,
+        l: Site,
+        right: &Normal,
+        left: &Normal,
+        disk: &TouchingDisk,
+    ) -> Ordering {
+        let ends = |k: u32| (self.domain.edge(k).start, self.domain.end(k));
+        let (from, to) = ends(left.edge);
+        if r.is_edge() == l.is_edge() {
+            // Their path is straight, and crosses each normal once.
+            let of = if r.is_edge() { Leaving::Edge } else { Leaving::Corner };
+            let (a, b) = ends(right.edge);
+            return match two_ends(of(a, b), of(from, to)) {
+                First::Right => Ordering::Greater,
+                First::Both => Ordering::Equal,
+                First::Left => Ordering::Less,
+            };
+        }
+        self.certified(&[r, right.site, l], disk).along(from, to, left.at)
     }
 
     /// Takes note of a transition and gives the governors of the path beyond it.
@@ -507,6 +561,10 @@ impl Search<'_> {
             if end.is_some_and(|e| disk.radius * LEAP > e.disk.radius) {
                 break;
             }
+            if let Some((link, hit)) = self.among_holes(anchor, gap.front, &disk) {
+                self.go_back(link);
+                return Some(hit);
+            }
             let start = (&anchor, &self.passed[..]);
             let mut verify = Verify::hunting(self, gap, start, disk);
             verify.run();
@@ -521,6 +579,30 @@ impl Search<'_> {
             reach *= LEAP;
         }
         end
+    }
+
+    /// A better proposal than the disk at the end of a path, and the link that it lies on, if the holes
+    /// nearby make one.
+    fn among_holes(
+        &self,
+        anchor: Start,
+        front: Option<Front>,
+        disk: &TouchingDisk,
+    ) -> Option<(usize, Proposal)> {
+        let rings = self.rings.as_ref()?;
+        let (right, left) = self.link;
+        let own = [right, left].map(|s| self.domain.edge(s.index()).walk);
+        let ahead = rings.ahead(&anchor, disk, own);
+        if ahead.is_empty() {
+            return None;
+        }
+        let here = self.passed.last().map_or(anchor, |p| Start::at(&p.disk));
+        let gap = Gap::new(right, left, here, front);
+        let mut verify = Verify::hunting(self, &gap, (&anchor, &self.passed[..]), *disk);
+        for (_, walk) in ahead {
+            verify.look_at(&self.domain.walks()[walk as usize]);
+        }
+        verify.best().map(|best| (verify.link(), best))
     }
 
     /// Drops what was passed from a link on, whose governors are then in `self.link`.
@@ -540,6 +622,10 @@ impl Search<'_> {
     ) -> Option<Found> {
         // The exact disk of the proposal, where only exact arithmetic made it.
         let mut exact = None;
+        if let Some((link, nearer)) = self.among_holes(anchor, front, &end.disk) {
+            self.go_back(link);
+            end = nearer;
+        }
         for _ in 0..MOST_ROUNDS {
             if self.watch.is_over() {
                 return None;
@@ -586,7 +672,7 @@ impl Search<'_> {
                         let slack = disk.bound + here.doubt + 64.0 * U * self.largest;
                         if gap.course(self.domain).position(&disk) <= slack
                             || contact_behind(&contacts, right, left).is_some()
-                            || !self.is_open(right, left, anchor, Round::disk(&disk))
+                            || !self.may_be_open(right, left, anchor, Round::disk(&disk))
                         {
                             return None;
                         }
@@ -630,9 +716,15 @@ impl Search<'_> {
         best
     }
 
+    /// The same, asked only where care is taken.
+    #[inline]
+    fn may_be_open(&self, r: Site, l: Site, anchor: Start, end: Round) -> bool {
+        !self.careful || self.is_open(r, l, anchor, end)
+    }
+
     /// Whether no ring can lie in the pocket of the path passed and one more piece.
     fn is_open(&self, r: Site, l: Site, anchor: Start, end: Round) -> bool {
-        let Some(rings) = self.rings.as_ref().filter(|_| self.careful) else { return true };
+        let Some(rings) = self.rings.as_ref() else { return true };
         let first = Round::start(&anchor);
         let passed = &self.passed;
         let start = move |k: usize| if k == 0 { first } else { Round::disk(&passed[k - 1].disk) };

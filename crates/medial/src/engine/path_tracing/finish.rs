@@ -13,7 +13,7 @@ use crate::axis::{
 use crate::domain::{Domain, Origin, Site};
 use crate::engine::EngineError;
 use crate::engine::watch::Watch;
-use crate::geom::Point;
+use crate::geom::{Point, TouchingDisk};
 
 /// Most that the distance of a keypoint's boundary from that of its exact disk is, in any direction,
 /// relative to max(|x|, |y|, radius).
@@ -140,6 +140,13 @@ impl Traced {
         }
         let list = from_least(&passed.contacts[..usize::from(passed.n_contacts)]);
         self.add_disk(domain, &disk, kind, &list)
+    }
+
+    /// The disk of a keypoint.
+    pub fn disk(&self, keypoint: u32) -> TouchingDisk {
+        let Keypoint { position: origin, radius, .. } = self.keypoints[keypoint as usize];
+        let bound = PLACED * origin.x.abs().max(origin.y.abs()).max(radius);
+        TouchingDisk { origin, centre: Point::default(), radius, bound }
     }
 
     /// Where a path starts that leaves a keypoint, which these sites define if it is no end.

@@ -72,6 +72,21 @@ impl Gaps {
         self.unlink(right, |_, gap| gap.left == left && same(gap.keypoint))
     }
 
+    /// Keypoints with an open gap between two governors.
+    pub fn keypoints(&self, right: Site, left: Site) -> impl Iterator<Item = u32> + '_ {
+        let mut number = self.heads[(right.0 - self.base) as usize];
+        std::iter::from_fn(move || {
+            while number != NONE {
+                let gap = &self.gaps[number as usize];
+                number = gap.next;
+                if gap.left == left {
+                    return Some(gap.keypoint);
+                }
+            }
+            None
+        })
+    }
+
     /// Takes the first open gap of a site for which `wanted` holds, and gives its keypoint.
     fn unlink(&mut self, right: Site, mut wanted: impl FnMut(u32, &Open) -> bool) -> Option<u32> {
         let slot = (right.0 - self.base) as usize;

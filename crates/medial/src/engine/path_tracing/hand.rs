@@ -3,8 +3,9 @@ use smallvec::SmallVec;
 use super::chain::{Passed, facing};
 use super::contacts::{Contacts, follows};
 use super::finish::Traced;
+use super::gaps::Gaps;
 use super::positions::Fixed;
-use super::search::{Found, Search, Start};
+use super::search::{Before, Found, Search, Start};
 use crate::axis::{KeypointKind, Path};
 use crate::domain::{Domain, Site};
 use crate::engine::EngineError;
@@ -40,19 +41,22 @@ impl<'a> Hand<'a> {
     }
 
     /// Follows the path that leaves `start`, which is keypoint number `from`, to the next keypoint
-    /// that is no plain transition, and takes note of all but its last piece.
+    /// that is no plain transition, and takes note of all but its last piece. Only with the open gaps
+    /// it may end at a keypoint as known.
     pub fn follow(
         &mut self,
         mut from: u32,
         right: Site,
         left: Site,
         start: Start,
+        gaps: Option<&Gaps>,
     ) -> Result<Arrival, EngineError> {
         self.watch.check()?;
         let broken = EngineError::Internal { stage: "preparing the search", place: start.centre };
         let search = self.search.as_mut().ok_or(broken)?;
         search.mend_tree();
-        let chased = if self.single { None } else { search.chase(right, left, start) };
+        let before = gaps.map(|gaps| Before { gaps, traced: &self.traced });
+        let chased = if self.single { None } else { search.chase(right, left, start, before) };
         let Some(found) = chased else {
             let found = search.find(right, left, start)?;
             return Ok(Arrival { from, right, left, found });

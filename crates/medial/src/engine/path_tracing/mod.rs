@@ -33,6 +33,7 @@ mod finish;
 mod front;
 mod gaps;
 mod hand;
+mod holes;
 mod met;
 mod numbers;
 mod order;

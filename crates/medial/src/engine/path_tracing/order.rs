@@ -118,6 +118,7 @@ impl Search<'_> {
         }
         match found {
             Found::Corner(_) => true,
+            Found::Known(_) => false,
             Found::Disk { triple, .. } => self
                 .exact(triple)
                 .is_some_and(|end| self.along_path(gap, &disk, &end) == Ordering::Less),

@@ -1,50 +1,35 @@
 //! Whole rings that hide between two empty disks of one path.
 //!
 //! Two empty disks on a path and the footpoints between them close a pocket that only a complete
-//! boundary walk can occupy: so one corner of each hole, in a small index, is enough.
+//! boundary walk can occupy: so one point of each hole, in a small index, is enough.
 
 use std::ops::Range;
+use std::sync::OnceLock;
 
+use smallvec::SmallVec;
+
+use super::holes::{Ahead, Hole, Holes};
 use super::search::{Found, Gap, Start};
 use crate::domain::{Domain, Site};
 use crate::geom::{BoundsTree, Governor, Point, Rect, TouchingDisk, Visitor};
 
-/// One corner of every hole of a polygon.
+/// The holes of a polygon, as far as somebody asks for them.
 #[derive(Debug)]
-pub(super) struct HiddenRings {
-    /// Reflex corners, sorted along a space-filling curve.
-    corners: Vec<Site>,
-    tree: BoundsTree,
+pub(super) struct Rings {
+    holes: Holes,
+    hidden: OnceLock<HiddenRings>,
 }
 
-impl HiddenRings {
-    /// The index over the given walks; `None` if none of them is a hole.
+impl Rings {
+    /// The holes among the given walks; `None` if there is none.
     pub fn new(domain: &Domain, walks: Range<usize>) -> Option<Self> {
-        let mut bounds = Rect::EMPTY;
-        let mut corners: Vec<(Point, u32)> = Vec::new();
-        for walk in domain.walks()[walks].iter().filter(|w| w.hole) {
-            // At its first point in lexicographic order the walk of a hole turns right.
-            let lowest = (walk.first..walk.first + walk.len).min_by(|&a, &b| {
-                domain.edge(a).start.lexicographic(domain.edge(b).start).then(a.cmp(&b))
-            });
-            if let Some(k) = lowest {
-                let p = domain.edge(k).start;
-                bounds = bounds.with(p);
-                corners.push((p, k));
-            }
-        }
-        if corners.is_empty() {
-            return None;
-        }
-        let size =
-            (bounds.max - bounds.min).x.max((bounds.max - bounds.min).y).max(f64::MIN_POSITIVE);
-        corners.sort_by_key(|&(p, k)| {
-            let cell = |v: f64| (v / size * f64::from(1 << 16)) as u32;
-            (interleave(cell(p.x - bounds.min.x), cell(p.y - bounds.min.y)), k)
-        });
-        let tree =
-            BoundsTree::new(0, corners.len() as u32, |k| Rect::EMPTY.with(corners[k as usize].0));
-        Some(Self { corners: corners.iter().map(|&(_, k)| Site::corner(k)).collect(), tree })
+        let any = domain.walks()[walks.clone()].iter().any(|walk| walk.hole);
+        let holes = any.then(|| Holes::new(domain, walks))?;
+        Some(Self { holes, hidden: OnceLock::new() })
+    }
+
+    fn hidden(&self) -> &HiddenRings {
+        self.hidden.get_or_init(|| HiddenRings::new(&self.holes))
     }
 
     /// Corners of rings that may lie in the pocket of a path. Generous: doubles with a margin.
@@ -52,41 +37,79 @@ impl HiddenRings {
         let end = match found {
             Found::Corner(edge) => Round::corner(domain.edge(*edge).start),
             Found::Disk { disk, .. } => Round::disk(disk),
+            // Looked into when it was found.
+            Found::Known(_) => return Vec::new(),
         };
         let start = Round::start(&gap.start);
         let link = Link { right: gap.right, left: gap.left, start, end };
-        let mut query = Query {
-            rings: self,
-            domain,
-            pocket: Pocket::new(domain, &link),
-            link,
-            found: Vec::new(),
+        let pockets = Pockets::new(domain, std::iter::once(link));
+        let mut suspects = Vec::new();
+        let mut suspect = |walk: u32| {
+            suspects.extend(lowest(domain, walk));
+            true
         };
-        self.tree.visit(&mut query);
-        query.found
+        if !self.holes.each(&pockets, &mut suspect) {
+            self.hidden().each(&pockets, &mut suspect);
+        }
+        suspects
+    }
+
+    /// Holes that a disk may reach, other than two walks: about the share of the way from the start to
+    /// the disk at which it does, least first, and the walk. Proposals only; empty where there are many.
+    pub fn ahead(&self, start: &Start, disk: &TouchingDisk, own: [u32; 2]) -> Ahead {
+        self.holes.ahead(start, disk, own)
     }
 
     /// Whether any ring may lie in the pocket of one of these pieces of a path.
-    pub fn any(&self, domain: &Domain, links: impl Iterator<Item = Link> + Clone) -> bool {
-        let walk = |s: Site| domain.edge(s.index()).walk;
-        let mut own = None;
-        let mut bounds = Rect::EMPTY;
-        for link in links.clone() {
-            own = Some((walk(link.right), walk(link.left)));
-            bounds = bounds.union(Pocket::new(domain, &link).bounds);
+    pub fn any(&self, domain: &Domain, links: impl Iterator<Item = Link>) -> bool {
+        let pockets = Pockets::new(domain, links);
+        let mut any = false;
+        let mut suspect = |_| {
+            any = true;
+            false
+        };
+        if !self.holes.each(&pockets, &mut suspect) {
+            self.hidden().each(&pockets, &mut suspect);
         }
-        let Some((right, left)) = own else { return false };
-        let mut near = Near { bounds, found: Vec::new() };
-        self.tree.visit(&mut near);
-        near.found.iter().any(|&k| {
-            let site = self.corners[k as usize];
-            let ring = walk(site);
-            ring != right
-                && ring != left
-                && links
-                    .clone()
-                    .any(|link| Pocket::new(domain, &link).holds(domain.edge(site.index()).start))
-        })
+        any
+    }
+}
+
+/// The first point of a hole in lexicographic order, where its walk turns right.
+fn lowest(domain: &Domain, walk: u32) -> Option<Site> {
+    let walk = domain.walks()[walk as usize];
+    let lowest = (walk.first..walk.first + walk.len)
+        .min_by(|&a, &b| domain.edge(a).start.lexicographic(domain.edge(b).start).then(a.cmp(&b)));
+    lowest.map(Site::corner)
+}
+
+/// A tree over one point of every hole, wherever they are.
+#[derive(Debug)]
+struct HiddenRings {
+    /// Sorted along a space-filling curve.
+    holes: Vec<Hole>,
+    tree: BoundsTree,
+}
+
+impl HiddenRings {
+    fn new(holes: &Holes) -> Self {
+        let mut holes = holes.all().to_vec();
+        let bounds = holes.iter().fold(Rect::EMPTY, |all, hole| all.with(hole.at));
+        let size =
+            (bounds.max - bounds.min).x.max((bounds.max - bounds.min).y).max(f64::MIN_POSITIVE);
+        holes.sort_by_key(|hole| {
+            let cell = |v: f64| (v / size * f64::from(1 << 16)) as u32;
+            let place = hole.at - bounds.min;
+            (interleave(cell(place.x), cell(place.y)), hole.walk)
+        });
+        let tree =
+            BoundsTree::new(0, holes.len() as u32, |k| Rect::EMPTY.with(holes[k as usize].at));
+        Self { holes, tree }
+    }
+
+    /// As [`Holes::each`], however long it takes.
+    fn each(&self, pockets: &Pockets, suspect: &mut dyn FnMut(u32) -> bool) {
+        self.tree.visit(&mut Near { rings: self, pockets, suspect, done: false });
     }
 }
 
@@ -139,19 +162,57 @@ pub(super) struct Link {
     pub end: Round,
 }
 
-/// The items of a box.
-struct Near {
-    bounds: Rect,
-    found: Vec<u32>,
+/// The pockets of some pieces of one path.
+#[derive(Debug)]
+pub(super) struct Pockets {
+    pockets: SmallVec<[Pocket; 4]>,
+    /// The box of all.
+    pub bounds: Rect,
+    /// Walks of the governors: they are touched, so they do not lie in a pocket whole.
+    own: [u32; 2],
 }
 
-impl Visitor for Near {
+impl Pockets {
+    fn new(domain: &Domain, links: impl Iterator<Item = Link>) -> Self {
+        let mut own = [u32::MAX; 2];
+        let mut bounds = Rect::EMPTY;
+        let mut pockets = SmallVec::new();
+        for link in links {
+            own = [link.right, link.left].map(|s| domain.edge(s.index()).walk);
+            let pocket = Pocket::new(domain, &link);
+            bounds = bounds.union(pocket.bounds);
+            pockets.push(pocket);
+        }
+        Self { pockets, bounds, own }
+    }
+
+    /// Whether a ring with this point, of this walk, may lie in one of them.
+    #[inline]
+    pub fn may_hold(&self, at: Point, walk: u32) -> bool {
+        self.bounds.holds(at)
+            && !self.own.contains(&walk)
+            && self.pockets.iter().any(|pocket| pocket.bounds.holds(at) && pocket.holds(at))
+    }
+}
+
+/// The walks of holes that may lie in one of some pockets.
+struct Near<'q> {
+    rings: &'q HiddenRings,
+    pockets: &'q Pockets,
+    suspect: &'q mut dyn FnMut(u32) -> bool,
+    done: bool,
+}
+
+impl Visitor for Near<'_> {
     fn enters(&self, bounds: &Rect, _items: Range<u32>) -> bool {
-        bounds.meets(&self.bounds)
+        !self.done && bounds.meets(&self.pockets.bounds)
     }
 
     fn item(&mut self, item: u32) {
-        self.found.push(item);
+        let Hole { at, walk, .. } = self.rings.holes[item as usize];
+        if !self.done && self.pockets.may_hold(at, walk) {
+            self.done = !(self.suspect)(walk);
+        }
     }
 }
 
@@ -215,29 +276,5 @@ impl Pocket {
             }
         }
         inside
-    }
-}
-
-struct Query<'q> {
-    rings: &'q HiddenRings,
-    domain: &'q Domain,
-    link: Link,
-    pocket: Pocket,
-    found: Vec<Site>,
-}
-
-impl Visitor for Query<'_> {
-    fn enters(&self, bounds: &Rect, _items: Range<u32>) -> bool {
-        bounds.meets(&self.pocket.bounds)
-    }
-
-    fn item(&mut self, item: u32) {
-        let site = self.rings.corners[item as usize];
-        let walk = |s: Site| self.domain.edge(s.index()).walk;
-        // The rings of the governors are touched, so they do not lie in the pocket whole.
-        let own = walk(site) == walk(self.link.right) || walk(site) == walk(self.link.left);
-        if !own && self.pocket.holds(self.domain.edge(site.index()).start) {
-            self.found.push(site);
-        }
     }
 }

@@ -11,9 +11,11 @@ use std::sync::{Arc, OnceLock};
 use super::chain::Passed;
 use super::contacts::Contacts;
 use super::course::Course;
+use super::finish::Traced;
 use super::front::Front;
+use super::gaps::Gaps;
 use super::met::Met;
-use super::rings::HiddenRings;
+use super::rings::Rings;
 use super::touch::{Seen, Touch, touch};
 use super::verify::{Verdict, Verify};
 use crate::domain::{Corner, Domain, Site};
@@ -52,6 +54,15 @@ pub(super) enum Found {
     /// At a keypoint: its disk, three sites that define it, and all its governors in
     /// counterclockwise order; whether the disk is fixed by them, and not by the way it was found.
     Disk { disk: TouchingDisk, triple: [Site; 3], contacts: Contacts, fixed: bool },
+    /// At a keypoint that is known already, at its open gap between these governors.
+    Known(u32),
+}
+
+/// What was traced before, for paths that may close a loop.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Before<'t> {
+    pub gaps: &'t Gaps,
+    pub traced: &'t Traced,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -123,7 +134,7 @@ pub(super) struct Index {
     tree: Arc<CapsuleTree>,
     /// The tree sorted anew, if anybody needs it.
     sorted: Arc<OnceLock<Arc<CapsuleTree>>>,
-    rings: Option<Arc<HiddenRings>>,
+    rings: Option<Arc<Rings>>,
 }
 
 impl Index {
@@ -132,7 +143,7 @@ impl Index {
         let first = domain.walks()[walks.start].first;
         let n: u32 = domain.walks()[walks.clone()].iter().map(|w| w.len).sum();
         let tree = CapsuleTree::new(first, n, |k| (domain.edge(k).start, domain.end(k)));
-        let rings = HiddenRings::new(domain, walks);
+        let rings = Rings::new(domain, walks);
         Self { tree: Arc::new(tree), sorted: Arc::default(), rings: rings.map(Arc::new) }
     }
 }
@@ -150,7 +161,7 @@ pub(super) struct Search<'a> {
     work: Cell<(u64, u64)>,
     /// No disk inside the polygon has a larger radius.
     pub largest: f64,
-    pub rings: Option<Arc<HiddenRings>>,
+    pub rings: Option<Arc<Rings>>,
     pub banned: Vec<Site>,
     /// Whether every piece of a path is searched for whole rings, and not only counted on in the end
     /// that every ring governs something.

@@ -206,9 +206,15 @@ impl<'a> Tracer<'a> {
         let Pending { keypoint, right, left, triple, .. } = pending;
         let start = self.hand.traced.start(keypoint, triple);
         let Arrival { from, right, left, found } =
-            self.hand.follow(keypoint, right, left, start)?;
+            self.hand.follow(keypoint, right, left, start, self.gaps.as_ref())?;
         let to = match found {
             Found::Corner(corner) => self.hand.add_end(corner),
+            Found::Known(to) => {
+                if let Some(gaps) = &mut self.gaps {
+                    gaps.close(left, right, |k| k == to);
+                }
+                to
+            }
             Found::Disk { disk, triple, contacts, fixed } => {
                 let list = from_least(&contacts);
                 // The path seen from its other end has its governors the other way round.

@@ -7,7 +7,7 @@ use super::contacts::{self, Contacts};
 use super::front::scope;
 use super::search::{Gap, Proposal, SLACK, Search, Start};
 use super::touch::{Seen, Touch};
-use crate::domain::{Corner, Edge, Site};
+use crate::domain::{Corner, Edge, Site, Walk};
 use crate::geom::predicates::ExactDisk;
 use crate::geom::{Hidden, LEAF, Look, Point, Scope, TouchingDisk};
 
@@ -140,6 +140,17 @@ impl<'s, 'a> Verify<'s, 'a> {
         let hidden = self.gap.front.map_or(Hidden::default(), |f| f.hidden());
         let search = self.search;
         search.count_visit(search.tree.visit(hidden, self));
+    }
+
+    /// Looks at the edges of one walk only.
+    pub fn look_at(&mut self, walk: &Walk) {
+        let end = walk.first + walk.len;
+        for first in (walk.first..end).step_by(LEAF) {
+            for edge in first..end.min(first + LEAF as u32) {
+                self.edge(edge);
+            }
+            self.leaf();
+        }
     }
 
     fn look_into(&mut self, disk: TouchingDisk) {

@@ -251,10 +251,11 @@ impl<'s, 'a> Worker<'s, 'a> {
         let end = loop {
             let broken = EngineError::Internal { stage: "following a path", place: start.centre };
             self.count(start)?;
-            let arrival = self.hand.follow(from, right, left, start)?;
+            let arrival = self.hand.follow(from, right, left, start, None)?;
             let last = path(arrival.from, ELSEWHERE, arrival.right, arrival.left);
             let (disk, triple, contacts, fixed) = match arrival.found {
                 Found::Disk { disk, triple, contacts, fixed } => (disk, triple, contacts, fixed),
+                Found::Known(_) => return Err(broken),
                 Found::Corner(corner) => {
                     if let Some(seed) = large.seeds.number(corner) {
                         large.met[seed].store(true, Ordering::Relaxed);
@@ -354,9 +355,10 @@ impl<'s, 'a> Worker<'s, 'a> {
         self.pending.push(Pending { keypoint, right, left, start });
         while let Some(Pending { keypoint, right, left, start }) = self.pending.pop() {
             let Arrival { from, right, left, found } =
-                self.hand.follow(keypoint, right, left, start)?;
+                self.hand.follow(keypoint, right, left, start, None)?;
             let to = match found {
                 Found::Corner(corner) => self.hand.add_end(corner),
+                Found::Known(to) => to,
                 Found::Disk { disk, triple, contacts, fixed } => {
                     let list = from_least(&contacts);
                     let to = self.hand.add_keypoint(&disk, triple, &list, fixed)?;
