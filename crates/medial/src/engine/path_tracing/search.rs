@@ -19,7 +19,7 @@ use crate::domain::{Corner, Domain, Site};
 use crate::engine::EngineError;
 use crate::engine::watch::Watch;
 use crate::geom::predicates::ExactDisk;
-use crate::geom::{CapsuleTree, Governor, Point, TouchingDisk};
+use crate::geom::{CapsuleTree, Governor, Pinned, Point, TouchingDisk};
 
 /// A third governor that was tried, with its disk.
 #[derive(Clone, Copy, Debug)]
@@ -496,6 +496,12 @@ impl<'a> Search<'a> {
     /// The exact disk of a triple that was certified.
     pub fn certified(&self, triple: &[Site; 3], disk: &TouchingDisk) -> ExactDisk {
         ExactDisk::of_certified(triple.map(|s| self.domain.element(s)), disk)
+    }
+
+    /// The disk of three edges relative to a circle near them, if the tree has such circles.
+    pub fn pinned(&self, triple: &[Site; 3]) -> Option<Pinned> {
+        let [a, b, c] = triple.map(|s| if s.is_edge() { self.tree.rim(s.index()) } else { None });
+        Pinned::touching([a?, b?, c?])
     }
 
     /// The exact disk of a triple; `None` if there is none, or its radius is zero.

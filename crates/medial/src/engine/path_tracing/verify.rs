@@ -9,7 +9,7 @@ use super::search::{Gap, Proposal, SLACK, Search, Start};
 use super::touch::{Seen, Touch};
 use crate::domain::{Corner, Edge, Site};
 use crate::geom::predicates::ExactDisk;
-use crate::geom::{Hidden, LEAF, Look, Point, Scope, TouchingDisk};
+use crate::geom::{Hidden, LEAF, Look, Pinned, Point, Scope, TouchingDisk};
 
 const U: f64 = f64::EPSILON / 2.0;
 
@@ -70,6 +70,8 @@ pub(super) struct Verify<'s, 'a> {
     cutting: [Cutting; LEAF],
     n_cutting: usize,
     doubtful: SmallVec<[u32; 8]>,
+    /// The certified disk as precisely as it can be had, once many edges may touch it.
+    pinned: Option<Pinned>,
 }
 
 impl<'s, 'a> Verify<'s, 'a> {
@@ -102,6 +104,7 @@ impl<'s, 'a> Verify<'s, 'a> {
             cutting: [Cutting::default(); LEAF],
             n_cutting: 0,
             doubtful: SmallVec::new(),
+            pinned: None,
         }
     }
 
@@ -450,6 +453,16 @@ impl Look for Verify<'_, '_> {
     #[inline]
     fn near(&self) -> u32 {
         self.gap.left.index()
+    }
+
+    #[inline]
+    fn pinned(&mut self) -> Option<&Pinned> {
+        if self.hunting {
+            return None;
+        }
+        Some(self.pinned.get_or_insert_with(|| {
+            self.search.pinned(&self.triple).unwrap_or_else(|| Pinned::from(&self.certified))
+        }))
     }
 
     #[inline]

@@ -1,0 +1,229 @@
+//! Edges relative to a circle that a run of them follows, for disks that follow it as well.
+//!
+//! # Contract
+//! Whatever [`Rim::sift`] leaves out lies on a line that is certainly farther from a disk's centre, on
+//! the side of the disk, than the radius. [`Pinned::touching`] gives the disk of three lines, with a
+//! bound as of [`TouchingDisk`].
+//!
+//! # Method
+//! Where thousands of edges touch nearly the same disk, their distances from its centre less its radius
+//! are differences of the last bits of coordinates. Each edge keeps that residual for a circle nearby,
+//! computed in pairs of doubles and rounded once; for a disk whose centre and radius are given relative
+//! to such a circle, `h + n·δ - δ_r` is then right to half an ulp of δ, far below one of the radius.
+//! Eight edges are tested together.
+//!
+//! # Departures
+//! None.
+
+use super::lanes::{FAN, Wide};
+use super::{Double, Point, TouchingDisk};
+
+/// Half an ulp of 1.
+const U: f64 = f64::EPSILON / 2.0;
+
+/// Rounding of a residual in pairs of doubles, relative to the sizes that enter it: twenty operations
+/// of at most 2^-100 each, with room to spare.
+const ROUNDING: f64 = 1.0 / (1_u128 << 90) as f64;
+
+/// More than what underflows in a residual between doubles with exponents of at most 200 in magnitude.
+const VANISHING: f64 = f64::from_bits((1023 - 480) << 52);
+
+/// Radius of a circle, in lengths of the run, beyond which the run is as good as straight.
+const FLAT: f64 = (1_u64 << 40) as f64;
+
+/// One number to an edge.
+type Eight = [f64; FAN];
+
+/// Eight edges and the circle they are measured by.
+#[derive(Clone, Debug)]
+pub struct Rim {
+    centre: Point,
+    radius: f64,
+    /// Bound on the error of the residuals of the circle itself and of sums with them.
+    blur: f64,
+    /// Unit normals, each component within 4u of its own.
+    nx: Eight,
+    ny: Eight,
+    /// Distances of the centre from the lines, less the radius.
+    rest: Eight,
+}
+
+/// A disk relative to a circle near it, `|w·(c* - c) - (r* - r)| <= bound` for every unit vector `w`.
+#[derive(Clone, Copy, Debug)]
+pub struct Pinned {
+    /// Middle of the circle.
+    pub base: Point,
+    /// Its radius.
+    pub base_radius: f64,
+    /// Centre of the disk, relative to that of the circle.
+    pub centre: Point,
+    /// Its radius, less that of the circle.
+    pub radius: f64,
+    /// Bound on the error.
+    pub bound: f64,
+}
+
+/// A disk relative to the circle of a rim.
+struct Moved {
+    by: Point,
+    more: f64,
+    error: f64,
+}
+
+/// Centre and radius of the circle through three points of a run; its middle point where there is none.
+pub(super) fn circle([p, q, s]: [Point; 3]) -> (Point, f64) {
+    let (a, b) = (q - p, s - p);
+    let twice = 2.0 * a.cross(b);
+    let (a2, b2) = (a.norm2(), b.norm2());
+    let way = Point::new((b.y * a2 - a.y * b2) / twice, (a.x * b2 - b.x * a2) / twice);
+    let near = way.norm2() <= FLAT * FLAT * (a2 + b2);
+    if near { (p + way, way.norm()) } else { (q, 0.0) }
+}
+
+impl Rim {
+    /// Edges, each given by its ends, relative to a circle.
+    pub(super) fn new((centre, radius): (Point, f64), ends: &[(Point, Point); FAN]) -> Self {
+        let mut rim =
+            Self { centre, radius, blur: 0.0, nx: [0.0; FAN], ny: [0.0; FAN], rest: [0.0; FAN] };
+        let mut blur = 0.0;
+        for (k, &(a, b)) in ends.iter().enumerate() {
+            let (dx, dy) = (Double::difference(b.x, a.x), Double::difference(b.y, a.y));
+            let (qx, qy) = (Double::difference(centre.x, a.x), Double::difference(centre.y, a.y));
+            let length = Double::sum_of_products(dx, dx, dy, dy).sqrt();
+            let cross = Double::sum_of_products(dx, qy, -dy, qx);
+            let rest = cross.less_product(radius.into(), length) / length.value();
+            rim.nx[k] = -dy.value() / length.value();
+            rim.ny[k] = dx.value() / length.value();
+            rim.rest[k] = rest;
+            let size = qx.value().abs() + qy.value().abs() + radius;
+            // Not `max`, which would hide what is not a number.
+            let error = 8.0 * U * rest.abs() + ROUNDING * size + VANISHING;
+            blur = if error <= blur { blur } else { error };
+        }
+        rim.blur = blur;
+        rim
+    }
+
+    /// A disk relative to this circle, and what any residual of it may be off.
+    ///
+    /// Each difference is off by half an ulp of its own, and so are products and sums of them; with the
+    /// normals that makes less than 12u for each length.
+    #[inline]
+    fn moved(&self, disk: &Pinned) -> Moved {
+        let way = disk.base - self.centre;
+        let by = way + disk.centre;
+        let growth = disk.base_radius - self.radius;
+        let more = growth + disk.radius;
+        let size = way.x.abs()
+            + way.y.abs()
+            + disk.centre.x.abs()
+            + disk.centre.y.abs()
+            + growth.abs()
+            + disk.radius.abs();
+        Moved { by, more, error: 16.0 * U * size + self.blur }
+    }
+
+    /// The bits of those edges whose lines are not certainly clear of a disk.
+    #[inline]
+    pub(super) fn sift(&self, disk: &Pinned, mask: u32, wide: Option<Wide>) -> u32 {
+        let Moved { by, more, error } = self.moved(disk);
+        let least = more + (error + disk.bound) * (1.0 + 8.0 * U);
+        #[cfg(target_arch = "x86_64")]
+        if let Some(wide) = wide {
+            return mask & !wide.clear_of(self, by, least);
+        }
+        let _ = wide;
+        let mut mask = mask;
+        for k in 0..FAN {
+            if self.nx[k] * by.x + self.ny[k] * by.y + self.rest[k] > least {
+                mask &= !(1 << k);
+            }
+        }
+        mask
+    }
+}
+
+#[cfg(target_arch = "x86_64")]
+impl Wide {
+    #[inline]
+    #[allow(unsafe_code, reason = "only the machine itself tells what instructions it has")]
+    fn clear_of(self, rim: &Rim, by: Point, least: f64) -> u32 {
+        // SAFETY: `self` is made only where the machine has AVX2.
+        unsafe { clear_of_wide(rim, by, least) }
+    }
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2")]
+fn clear_of_wide(rim: &Rim, by: Point, least: f64) -> u32 {
+    use std::arch::x86_64::{
+        _CMP_GT_OQ, _mm256_add_pd as add, _mm256_cmp_pd, _mm256_movemask_pd, _mm256_mul_pd as mul,
+        _mm256_set1_pd as same, _mm256_setr_pd,
+    };
+    let half = |v: &Eight, k: usize| _mm256_setr_pd(v[k], v[k + 1], v[k + 2], v[k + 3]);
+    let (x, y, least) = (same(by.x), same(by.y), same(least));
+    let clear = |k: usize| {
+        let along = add(mul(half(&rim.nx, k), x), mul(half(&rim.ny, k), y));
+        let rest = add(along, half(&rim.rest, k));
+        _mm256_movemask_pd(_mm256_cmp_pd::<_CMP_GT_OQ>(rest, least)) as u32
+    };
+    clear(0) | clear(4) << 4
+}
+
+impl Pinned {
+    /// The disk touching three lines, each given by its place in a rim, contacts counterclockwise;
+    /// `None` where doubles cannot prove that there is one.
+    #[must_use]
+    pub fn touching(lines: [(&Rim, usize); 3]) -> Option<Self> {
+        let (base, base_radius) = (lines[1].0.centre, lines[1].0.radius);
+        let [n1, n2, n3] = lines.map(|(rim, k)| Point::new(rim.nx[k], rim.ny[k]));
+        let (b, e) = (n2 - n1, n3 - n1);
+        let (lb, le) = (b.norm(), e.norm());
+        let cross = b.cross(e);
+        // Each difference is off by 12u and half an ulp of its own.
+        let d = cross - U * (4.0 * lb * le + 16.0 * (lb + le) + 256.0 * U);
+        if d.is_nan() || d <= 0.0 {
+            return None;
+        }
+        let mut disk =
+            Self { base, base_radius, centre: Point::default(), radius: 0.0, bound: f64::INFINITY };
+        let residual = |disk: &Self, (rim, k): (&Rim, usize)| {
+            let Moved { by, more, error } = rim.moved(disk);
+            ((rim.nx[k] * by.x + rim.ny[k] * by.y + rim.rest[k]) - more, error)
+        };
+        let sides = [(n2 - n3).norm(), le, lb].map(|side| side + 16.0 * U);
+        let factor = 2.0 / d * (1.0 + 32.0 * U);
+        for _ in 0..3 {
+            let [(p1, _), (p2, _), (p3, _)] = lines.map(|line| residual(&disk, line));
+            let (p12, p13) = (p1 - p2, p1 - p3);
+            let dx = Point::new((p12 * e.y - p13 * b.y) / cross, (b.x * p13 - e.x * p12) / cross);
+            let mut next = disk;
+            next.centre = disk.centre + dx;
+            next.radius = disk.radius + (p1 + n1.dot(dx));
+            let open = lines.map(|line| {
+                let (rest, error) = residual(&next, line);
+                (rest.abs(), error)
+            });
+            next.bound = factor
+                * (sides[0] * (open[0].0 + open[0].1)
+                    + sides[1] * (open[1].0 + open[1].1)
+                    + sides[2] * (open[2].0 + open[2].1));
+            if next.bound.is_nan() || next.bound >= disk.bound {
+                break;
+            }
+            disk = next;
+            if open.iter().all(|&(rest, error)| rest <= error) {
+                break;
+            }
+        }
+        let radius = disk.base_radius + disk.radius;
+        (disk.bound < radius * (1.0 - 8.0 * U)).then_some(disk)
+    }
+}
+
+impl From<&TouchingDisk> for Pinned {
+    fn from(disk: &TouchingDisk) -> Self {
+        let TouchingDisk { origin, centre, radius, bound } = *disk;
+        Self { base: origin, base_radius: 0.0, centre, radius, bound }
+    }
+}
