@@ -223,7 +223,8 @@ impl CapsuleTree {
             let at = |k: u32| ends(self.base + k);
             for run in (0..self.n_edges).step_by(RUN as usize) {
                 let last = (run + RUN).min(self.n_edges) - 1;
-                let circle = circle([at(run).0, at(run + (last - run) / 2).1, at(last).1]);
+                let middle = at(run + (last - run).div_ceil(2));
+                let circle = circle(at(run).0, middle, at(last).1);
                 for first in (run..=last).step_by(FAN) {
                     // Lanes to spare repeat the last one.
                     let edges = std::array::from_fn(|k| at((first + k as u32).min(last)));

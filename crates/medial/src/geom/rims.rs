@@ -25,6 +25,9 @@ const U: f64 = f64::EPSILON / 2.0;
 /// of at most 2^-100 each, with room to spare.
 const ROUNDING: f64 = 1.0 / (1_u128 << 90) as f64;
 
+/// Error of a disk, as a share of its radius, up to which pairs of doubles are not needed.
+const SHARP: f64 = 1.0 / (1_u128 << 72) as f64;
+
 /// More than what underflows in a residual between doubles with exponents of at most 200 in magnitude.
 const VANISHING: f64 = f64::from_bits((1023 - 480) << 52);
 
@@ -61,6 +64,11 @@ pub struct Pinned {
     pub radius: f64,
     /// Bound on the error.
     pub bound: f64,
+    /// Where it is the disk of three lines, their normals, what the residual of each may be, and the
+    /// inverse of twice the area of the triangle of normals; not a number where it is not.
+    normals: [Point; 3],
+    open: [f64; 3],
+    per: f64,
 }
 
 /// A disk relative to the circle of a rim.
@@ -70,14 +78,18 @@ struct Moved {
     error: f64,
 }
 
-/// Centre and radius of the circle through three points of a run; its middle point where there is none.
-pub(super) fn circle([p, q, s]: [Point; 3]) -> (Point, f64) {
-    let (a, b) = (q - p, s - p);
+/// Centre of the circle through both ends of a run and the start of an edge in its middle, and the
+/// distance of that edge from it; its end where there is no circle.
+pub(super) fn circle(first: Point, (q, to): (Point, Point), last: Point) -> (Point, f64) {
+    let (a, b) = (q - first, last - first);
     let twice = 2.0 * a.cross(b);
     let (a2, b2) = (a.norm2(), b.norm2());
     let way = Point::new((b.y * a2 - a.y * b2) / twice, (a.x * b2 - b.x * a2) / twice);
-    let near = way.norm2() <= FLAT * FLAT * (a2 + b2);
-    if near { (p + way, way.norm()) } else { (q, 0.0) }
+    let centre = first + way;
+    let d = to - q;
+    let radius = (d.cross(centre - q) / d.norm()).abs();
+    let near = way.norm2() <= FLAT * FLAT * (a2 + b2) && radius.is_finite();
+    if near { (centre, radius) } else { (to, 0.0) }
 }
 
 impl Rim {
@@ -121,6 +133,16 @@ impl Rim {
             + growth.abs()
             + disk.radius.abs();
         Moved { by, more, error: 16.0 * U * size + self.blur }
+    }
+
+    /// The distance of a disk's centre from the line of an edge, less the radius, and a bound on its error.
+    #[inline]
+    #[must_use]
+    pub fn rest(&self, k: usize, disk: &Pinned) -> (f64, f64) {
+        let Moved { by, more, error } = self.moved(disk);
+        let along = self.nx[k] * by.x + self.ny[k] * by.y;
+        let bound = disk.bound_towards(Point::new(self.nx[k], self.ny[k]));
+        ((along + self.rest[k]) - more, (error + bound) * (1.0 + 8.0 * U))
     }
 
     /// The bits of those edges whose lines are not certainly clear of a disk.
@@ -185,14 +207,23 @@ impl Pinned {
         if d.is_nan() || d <= 0.0 {
             return None;
         }
-        let mut disk =
-            Self { base, base_radius, centre: Point::default(), radius: 0.0, bound: f64::INFINITY };
+        let per = 1.0 / d * (1.0 + 2.0 * U);
+        let mut disk = Self {
+            base,
+            base_radius,
+            centre: Point::default(),
+            radius: 0.0,
+            bound: f64::INFINITY,
+            normals: [n1, n2, n3],
+            open: [f64::INFINITY; 3],
+            per,
+        };
         let residual = |disk: &Self, (rim, k): (&Rim, usize)| {
             let Moved { by, more, error } = rim.moved(disk);
             ((rim.nx[k] * by.x + rim.ny[k] * by.y + rim.rest[k]) - more, error)
         };
         let sides = [(n2 - n3).norm(), le, lb].map(|side| side + 16.0 * U);
-        let factor = 2.0 / d * (1.0 + 32.0 * U);
+        let factor = 2.0 * per * (1.0 + 32.0 * U);
         for _ in 0..3 {
             let [(p1, _), (p2, _), (p3, _)] = lines.map(|line| residual(&disk, line));
             let (p12, p13) = (p1 - p2, p1 - p3);
@@ -200,19 +231,18 @@ impl Pinned {
             let mut next = disk;
             next.centre = disk.centre + dx;
             next.radius = disk.radius + (p1 + n1.dot(dx));
-            let open = lines.map(|line| {
+            let rests = lines.map(|line| {
                 let (rest, error) = residual(&next, line);
                 (rest.abs(), error)
             });
+            next.open = rests.map(|(rest, error)| rest + error);
             next.bound = factor
-                * (sides[0] * (open[0].0 + open[0].1)
-                    + sides[1] * (open[1].0 + open[1].1)
-                    + sides[2] * (open[2].0 + open[2].1));
+                * (sides[0] * next.open[0] + sides[1] * next.open[1] + sides[2] * next.open[2]);
             if next.bound.is_nan() || next.bound >= disk.bound {
                 break;
             }
             disk = next;
-            if open.iter().all(|&(rest, error)| rest <= error) {
+            if rests.iter().all(|&(rest, error)| rest <= error) {
                 break;
             }
         }
@@ -221,9 +251,43 @@ impl Pinned {
     }
 }
 
+impl Pinned {
+    /// Whether it is known as well as doubles hold its radius.
+    #[inline]
+    #[must_use]
+    pub fn is_precise(&self) -> bool {
+        self.bound <= 16.0 * U * (self.base_radius + self.radius)
+    }
+
+    /// Bound on the error for the one unit vector that is given within 4u: that is an affine combination
+    /// of the normals with weights that are as small as it is near them.
+    #[inline]
+    fn bound_towards(&self, m: Point) -> f64 {
+        let ways = self.normals.map(|n| n - m);
+        let weight = |a: Point, b: Point| {
+            let sizes = a.x.abs() + a.y.abs() + b.x.abs() + b.y.abs();
+            a.cross(b).abs() + U * (24.0 * sizes + 512.0 * U)
+        };
+        let [a, b, c] = ways;
+        let sum = weight(b, c) * self.open[0]
+            + weight(c, a) * self.open[1]
+            + weight(a, b) * self.open[2];
+        let bound = sum * self.per * (1.0 + 16.0 * U);
+        if bound < self.bound { bound } else { self.bound }
+    }
+
+    /// Whether it is known far better than doubles hold its radius.
+    #[inline]
+    #[must_use]
+    pub fn is_sharp(&self) -> bool {
+        self.bound <= SHARP * (self.base_radius + self.radius)
+    }
+}
+
 impl From<&TouchingDisk> for Pinned {
     fn from(disk: &TouchingDisk) -> Self {
         let TouchingDisk { origin, centre, radius, bound } = *disk;
-        Self { base: origin, base_radius: 0.0, centre, radius, bound }
+        let (normals, open) = ([Point::default(); 3], [0.0; 3]);
+        Self { base: origin, base_radius: 0.0, centre, radius, bound, normals, open, per: f64::NAN }
     }
 }

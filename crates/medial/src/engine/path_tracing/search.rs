@@ -506,6 +506,9 @@ impl<'a> Search<'a> {
 
     /// The exact disk of a triple; `None` if there is none, or its radius is zero.
     pub fn exact(&self, triple: &[Site; 3]) -> Option<ExactDisk> {
+        if let Some(disk) = self.pinned(triple).filter(Pinned::is_precise) {
+            return Some(ExactDisk::of_pinned(triple.map(|s| self.domain.element(s)), &disk));
+        }
         let disk = ExactDisk::new(triple.map(|s| self.domain.element(s)))?;
         // Three edges may end at one point; their disk has its centre on each of them.
         let (edge, all_edges) = (triple[0].index(), triple.iter().all(|s| s.is_edge()));

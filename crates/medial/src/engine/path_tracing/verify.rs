@@ -72,6 +72,8 @@ pub(super) struct Verify<'s, 'a> {
     doubtful: SmallVec<[u32; 8]>,
     /// The certified disk as precisely as it can be had, once many edges may touch it.
     pinned: Option<Pinned>,
+    /// An edge that certainly cuts it. Then that is the disk of this edge, which comes earlier.
+    nearer: Option<u32>,
 }
 
 impl<'s, 'a> Verify<'s, 'a> {
@@ -105,6 +107,7 @@ impl<'s, 'a> Verify<'s, 'a> {
             n_cutting: 0,
             doubtful: SmallVec::new(),
             pinned: None,
+            nearer: None,
         }
     }
 
@@ -246,6 +249,32 @@ impl<'s, 'a> Verify<'s, 'a> {
         outside / (outside + inside)
     }
 
+    /// Decides about an edge by the sharp disk, if there is one, and goes on with an earlier one where
+    /// that is cut within the ends of the edge; tells whether it could.
+    fn sharpen(&mut self, edge: u32, near: i8, x: f64, doubt: f64) -> bool {
+        let (search, link) = (self.search, self.passed.len());
+        let Some(disk) = self.pinned.filter(Pinned::is_precise) else { return false };
+        let Some((rim, k)) = search.tree.rim(edge) else { return false };
+        let (rest, error) = rim.rest(k, &disk);
+        if rest > error {
+            return true;
+        }
+        let length = search.domain.edge(edge).length;
+        let within = near == 0 && x > doubt && x < length * (1.0 - 8.0 * U) - doubt;
+        if rest >= -error
+            || !within
+            || self.link != link
+            || !search.may_be_third(self.gap, Site::edge(edge))
+        {
+            return false;
+        }
+        let triple = [self.triple[0], Site::edge(edge), self.triple[2]];
+        let Some(earlier) = search.pinned(&triple).filter(Pinned::is_precise) else { return false };
+        self.pinned = Some(earlier);
+        self.nearer = Some(edge);
+        true
+    }
+
     /// A piece of the path that was passed.
     fn piece(&self, link: usize) -> Gap {
         let Passed { right, left, .. } = self.passed[link];
@@ -302,7 +331,10 @@ impl<'s, 'a> Verify<'s, 'a> {
         }
         let mut contacts = Contacts::new();
         let domain = search.domain;
-        let of_certified = || search.certified(&self.triple, &self.certified);
+        let of_certified = || match self.pinned.filter(Pinned::is_precise) {
+            Some(disk) => ExactDisk::of_pinned(self.triple.map(|s| domain.element(s)), &disk),
+            None => search.certified(&self.triple, &self.certified),
+        };
         // The three sites themselves, each touched within its zone.
         for (role, &site) in self.triple.iter().enumerate() {
             if !site.is_edge() {
@@ -344,6 +376,9 @@ impl<'s, 'a> Verify<'s, 'a> {
                     contacts.push(Site::corner(corner));
                 }
             }
+        }
+        if let Some(edge) = self.nearer {
+            return Verdict::Earlier(Site::edge(edge));
         }
         if !self.doubtful.is_empty() {
             let exact = exact.get_or_insert_with(of_certified);
@@ -514,7 +549,7 @@ impl Look for Verify<'_, '_> {
         if distance > d.radius + doubt {
         } else if distance < d.radius - doubt {
             self.cuts(edge, near);
-        } else {
+        } else if !self.sharpen(edge, near, x, doubt) {
             self.doubtful.push(edge);
         }
     }

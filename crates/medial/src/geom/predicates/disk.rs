@@ -12,7 +12,7 @@ use super::homogeneous::Homogeneous;
 use super::near::Near;
 use super::stages::special_side;
 use super::transition;
-use crate::geom::{Point, TouchingDisk};
+use crate::geom::{Pinned, Point, TouchingDisk};
 
 /// Error of a disk in doubles, as a share of its radius, up to which it is taken as it is.
 const SHARP: f64 = 64.0 * f64::EPSILON;
@@ -69,6 +69,13 @@ impl ExactDisk {
     /// The disk of three elements that was certified in doubles.
     pub(crate) fn of_certified(elements: [Element; 3], disk: &TouchingDisk) -> Self {
         Self::known(corners_first(elements), Near::from(disk))
+    }
+
+    /// The disk of three edges that is known relative to a circle.
+    pub(crate) fn of_pinned(elements: [Element; 3], disk: &Pinned) -> Self {
+        let fine = Fine::pinned(disk);
+        let known = Self::known(elements, fine.near());
+        if disk.is_sharp() { Self { fine: Some(fine).into(), ..known } } else { known }
     }
 
     fn known(elements: [Element; 3], near: Near) -> Self {

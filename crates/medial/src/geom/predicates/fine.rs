@@ -4,7 +4,7 @@ use std::cmp::Ordering;
 
 use super::Element;
 use super::near::{Near, SHORT, sign};
-use crate::geom::{Double, Point};
+use crate::geom::{Double, Pinned, Point};
 
 /// Half an ulp of 1.
 const U: f64 = f64::EPSILON / 2.0;
@@ -149,6 +149,15 @@ impl Fine {
             disk.radius = disk.radius + step.into();
         }
         best
+    }
+
+    /// A disk that is known relative to a circle.
+    pub(super) fn pinned(disk: &Pinned) -> Self {
+        let Pinned { base, base_radius, centre, radius, bound, .. } = *disk;
+        let centre = Pair { x: centre.x.into(), y: centre.y.into() };
+        let radius = Double::from(base_radius) + radius.into();
+        let error = (bound + ROUNDING * radius.value()) * (1.0 + 8.0 * U);
+        Self { origin: base, centre, radius, error }
     }
 
     /// The disk with its centre on the normal of an edge at its end `v`.
