@@ -495,7 +495,11 @@ impl<'a> Search<'a> {
 
     /// The exact disk of a triple that was certified.
     pub fn certified(&self, triple: &[Site; 3], disk: &TouchingDisk) -> ExactDisk {
-        ExactDisk::of_certified(triple.map(|s| self.domain.element(s)), disk)
+        let elements = triple.map(|s| self.domain.element(s));
+        match self.pinned(triple).filter(Pinned::is_precise) {
+            Some(disk) => ExactDisk::of_pinned(elements, &disk),
+            None => ExactDisk::of_certified(elements, disk),
+        }
     }
 
     /// The disk of three edges relative to a circle near them, if the tree has such circles.

@@ -72,7 +72,9 @@ pub(super) struct Verify<'s, 'a> {
     doubtful: SmallVec<[u32; 8]>,
     /// The certified disk as precisely as it can be had, once many edges may touch it.
     pinned: Option<Pinned>,
-    /// An edge that certainly cuts it. Then that is the disk of this edge, which comes earlier.
+    /// What is looked into while it is only a proposal.
+    hunted: Option<Pinned>,
+    /// An edge that certainly cuts the sharp disk. Then that is the disk of this edge, which comes earlier.
     nearer: Option<u32>,
 }
 
@@ -107,6 +109,7 @@ impl<'s, 'a> Verify<'s, 'a> {
             n_cutting: 0,
             doubtful: SmallVec::new(),
             pinned: None,
+            hunted: None,
             nearer: None,
         }
     }
@@ -147,6 +150,7 @@ impl<'s, 'a> Verify<'s, 'a> {
 
     fn look_into(&mut self, disk: TouchingDisk) {
         self.disk = disk;
+        self.hunted = None;
         let start = self.anchor;
         self.scope = scope(start.centre, start.radius, start.doubt, &disk);
     }
@@ -493,7 +497,11 @@ impl Look for Verify<'_, '_> {
     #[inline]
     fn pinned(&mut self) -> Option<&Pinned> {
         if self.hunting {
-            return None;
+            let disk = &self.disk;
+            // Only what clearly cuts it counts.
+            let bound = -SLACK / 2.0 * disk.radius;
+            let hunted = || Pinned::from(&TouchingDisk { bound, ..*disk });
+            return Some(self.hunted.get_or_insert_with(hunted));
         }
         Some(self.pinned.get_or_insert_with(|| {
             self.search.pinned(&self.triple).unwrap_or_else(|| Pinned::from(&self.certified))
