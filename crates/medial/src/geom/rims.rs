@@ -252,6 +252,13 @@ impl Pinned {
 }
 
 impl Pinned {
+    /// Whether it was found from three lines.
+    #[inline]
+    #[must_use]
+    pub fn is_solved(&self) -> bool {
+        !self.per.is_nan()
+    }
+
     /// Whether it is known as well as doubles hold its radius.
     #[inline]
     #[must_use]
@@ -289,5 +296,13 @@ impl From<&TouchingDisk> for Pinned {
         let TouchingDisk { origin, centre, radius, bound } = *disk;
         let (normals, open) = ([Point::default(); 3], [0.0; 3]);
         Self { base: origin, base_radius: 0.0, centre, radius, bound, normals, open, per: f64::NAN }
+    }
+}
+
+impl From<&Pinned> for TouchingDisk {
+    fn from(disk: &Pinned) -> Self {
+        let radius = disk.base_radius + disk.radius;
+        let bound = (disk.bound + 2.0 * U * radius.abs()) * (1.0 + 8.0 * U);
+        Self { origin: disk.base, centre: disk.centre, radius, bound }
     }
 }

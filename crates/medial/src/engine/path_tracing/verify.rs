@@ -257,7 +257,7 @@ impl<'s, 'a> Verify<'s, 'a> {
     /// that is cut within the ends of the edge; tells whether it could.
     fn sharpen(&mut self, edge: u32, near: i8, x: f64, doubt: f64) -> bool {
         let (search, link) = (self.search, self.passed.len());
-        let Some(disk) = self.pinned.filter(Pinned::is_precise) else { return false };
+        let Some(disk) = self.pinned.filter(Pinned::is_solved) else { return false };
         let Some((rim, k)) = search.tree.rim(edge) else { return false };
         let (rest, error) = rim.rest(k, &disk);
         if rest > error {
@@ -273,7 +273,7 @@ impl<'s, 'a> Verify<'s, 'a> {
             return false;
         }
         let triple = [self.triple[0], Site::edge(edge), self.triple[2]];
-        let Some(earlier) = search.pinned(&triple).filter(Pinned::is_precise) else { return false };
+        let Some(earlier) = search.pinned(&triple) else { return false };
         self.pinned = Some(earlier);
         self.nearer = Some(edge);
         true
