@@ -207,7 +207,7 @@ impl<'a> Search<'a> {
         if !self.rounded {
             self.rounded = true;
             self.work.set((0, 0));
-            self.tree.round_off(|k| (self.domain.edge(k).start, self.domain.end(k)));
+            self.round_off();
             return;
         }
         if nodes < NODES * visits {
@@ -221,6 +221,11 @@ impl<'a> Search<'a> {
         let sort =
             || Arc::new(CapsuleTree::along_a_curve(items.start, items.end - items.start, ends));
         self.tree = self.sorted.get_or_init(sort).clone();
+    }
+
+    /// Bounds the tree by circles as well.
+    pub fn round_off(&self) {
+        self.tree.round_off(|k| (self.domain.edge(k).start, self.domain.end(k)));
     }
 
     /// Takes note of a visit of the tree through that many nodes.

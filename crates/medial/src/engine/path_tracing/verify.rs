@@ -16,6 +16,9 @@ const U: f64 = f64::EPSILON / 2.0;
 /// Doubtful edges up to which a disk is not made more precise for them.
 const FEW: usize = 2;
 
+/// Doubtful edges of one disk from which the boundary is taken to follow disks inside it.
+const CROWD: usize = 32;
+
 /// What became of a disk.
 #[derive(Clone, Debug)]
 pub(super) enum Verdict {
@@ -481,6 +484,9 @@ impl Look for Verify<'_, '_> {
     fn leaf(&mut self) {
         if self.n_cutting > 0 {
             self.shrink_by_leaf();
+        }
+        if self.doubtful.len() > CROWD {
+            self.search.round_off();
         }
     }
 
