@@ -113,6 +113,9 @@ const VISITS: u64 = 500;
 const MANY: u64 = 32;
 const NODES: u64 = 100;
 
+/// Nodes of one visit that count, so that a few that go through all do not tell for many.
+const MOST: u64 = 1024;
+
 /// Tries before only exact arithmetic proposes.
 const FLOATING_TRIES: usize = 48;
 
@@ -232,7 +235,7 @@ impl<'a> Search<'a> {
     #[inline]
     pub fn count_visit(&self, entered: u64) {
         let (nodes, visits) = self.work.get();
-        self.work.set((nodes + entered, visits + 1));
+        self.work.set((nodes + entered.min(MOST), visits + 1));
     }
 
     /// The end of the path that leaves `start` between `right` and `left`.

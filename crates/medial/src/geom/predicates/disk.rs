@@ -282,6 +282,14 @@ impl ExactDisk {
             .or_else(|| self.form().map(Homogeneous::nearest))
             .unwrap_or_else(|| self.near.values())
     }
+
+    /// Centre and radius, each rounded once where pairs of doubles know them well, so that coordinates
+    /// far smaller than the disk are right to an ulp of the disk only; else as of
+    /// [`approximate`](Self::approximate).
+    pub(crate) fn rounded_once(&self) -> (Point, f64) {
+        let fine = if self.form.get().is_none() { self.fine() } else { None };
+        fine.and_then(Fine::rounded).unwrap_or_else(|| self.approximate())
+    }
 }
 
 /// Notes an answer of the forms for a centre on the normal at an edge's end.

@@ -15,6 +15,9 @@ const U: f64 = f64::EPSILON / 2.0;
 /// products and sums add three more: less than 16·2^-100 in all.
 const ROUNDING: f64 = 1.0 / (1_u128 << 96) as f64;
 
+/// Error, as a share of the largest number of a disk, up to which rounding is all it loses.
+const CLEAR: f64 = 1.0 / (1_u128 << 70) as f64;
+
 /// Newton steps before a disk is left to integers; each one gains at least a bit.
 const STEPS: usize = 12;
 
@@ -240,6 +243,16 @@ impl Fine {
         let x = coordinate(self.origin.x, self.centre.x)?;
         let y = coordinate(self.origin.y, self.centre.y)?;
         Some((Point::new(x, y), nearest(self.radius, self.error)?))
+    }
+
+    /// Centre and radius, rounded, if they are known far better than within an ulp of the largest of the
+    /// three numbers.
+    pub(super) fn rounded(&self) -> Option<(Point, f64)> {
+        let x = (Double::from(self.origin.x) + self.centre.x).value();
+        let y = (Double::from(self.origin.y) + self.centre.y).value();
+        let radius = self.radius.value();
+        let size = x.abs().max(y.abs()).max(radius);
+        (self.error <= CLEAR * size).then_some((Point::new(x, y), radius))
     }
 
     /// The centre relative to a point, and a bound on the error of its distances and coordinates.
