@@ -15,8 +15,8 @@ const U: f64 = f64::EPSILON / 2.0;
 /// products and sums add three more: less than 16·2^-100 in all.
 const ROUNDING: f64 = 1.0 / (1_u128 << 96) as f64;
 
-/// Error, as a share of the largest number of a disk, up to which rounding is all it loses.
-const CLEAR: f64 = 1.0 / (1_u128 << 70) as f64;
+/// Error, as a share of the largest number of a disk, up to which rounding loses more: a quarter of an ulp.
+const CLEAR: f64 = f64::EPSILON / 4.0;
 
 /// Newton steps before a disk is left to integers; each one gains at least a bit.
 const STEPS: usize = 12;
@@ -245,8 +245,8 @@ impl Fine {
         Some((Point::new(x, y), nearest(self.radius, self.error)?))
     }
 
-    /// Centre and radius, rounded, if they are known far better than within an ulp of the largest of the
-    /// three numbers.
+    /// Centre and radius, rounded, if they are known to a quarter of an ulp of the largest of the three
+    /// numbers.
     pub(super) fn rounded(&self) -> Option<(Point, f64)> {
         let x = (Double::from(self.origin.x) + self.centre.x).value();
         let y = (Double::from(self.origin.y) + self.centre.y).value();
