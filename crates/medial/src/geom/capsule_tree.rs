@@ -196,7 +196,18 @@ impl CapsuleTree {
         let wide = Wide::detect();
         let (rounds, rims) = (OnceLock::new(), OnceLock::new());
         Self {
-            order, base, n_edges, scale, slack, bounds, leaves, nodes, levels, wide, rounds, rims,
+            order,
+            base,
+            n_edges,
+            scale,
+            slack,
+            bounds,
+            leaves,
+            nodes,
+            levels,
+            wide,
+            rounds,
+            rims,
         }
     }
 

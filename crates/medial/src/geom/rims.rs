@@ -108,9 +108,8 @@ impl Rim {
             rim.ny[k] = dx.value() / length.value();
             rim.rest[k] = rest;
             let size = qx.value().abs() + qy.value().abs() + radius;
-            // Not `max`, which would hide what is not a number.
-            let error = 8.0 * U * rest.abs() + ROUNDING * size + VANISHING;
-            blur = if error <= blur { blur } else { error };
+            // A residual that is not a number leaves out nothing.
+            blur = f64::max(blur, 8.0 * U * rest.abs() + ROUNDING * size + VANISHING);
         }
         rim.blur = blur;
         rim
@@ -276,9 +275,8 @@ impl Pinned {
             a.cross(b).abs() + U * (24.0 * sizes + 512.0 * U)
         };
         let [a, b, c] = ways;
-        let sum = weight(b, c) * self.open[0]
-            + weight(c, a) * self.open[1]
-            + weight(a, b) * self.open[2];
+        let sum =
+            weight(b, c) * self.open[0] + weight(c, a) * self.open[1] + weight(a, b) * self.open[2];
         let bound = sum * self.per * (1.0 + 16.0 * U);
         if bound < self.bound { bound } else { self.bound }
     }
@@ -304,5 +302,84 @@ impl From<&Pinned> for TouchingDisk {
         let radius = disk.base_radius + disk.radius;
         let bound = (disk.bound + 2.0 * U * radius.abs()) * (1.0 + 8.0 * U);
         Self { origin: disk.base, centre: disk.centre, radius, bound }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::cmp::Ordering;
+
+    use super::*;
+    use crate::geom::predicates::{Element, ExactDisk};
+
+    /// Rims over the edges of a closed polygon whose number of edges is a multiple of eight.
+    fn rims(corners: &[Point], circle: (Point, f64)) -> Vec<Rim> {
+        let n = corners.len();
+        let edge = |k: usize| (corners[k % n], corners[(k + 1) % n]);
+        let rim = |first: usize| Rim::new(circle, &std::array::from_fn(|k| edge(first + k)));
+        (0..n).step_by(FAN).map(rim).collect()
+    }
+
+    #[test]
+    fn the_sides_of_a_triangle_touch_its_incircle_whatever_circle_they_are_measured_by() {
+        // Sides 3, 4, 5: the disk of radius 1 around (1, 1).
+        let [a, b, c] = [Point::new(0.0, 0.0), Point::new(4.0, 0.0), Point::new(0.0, 3.0)];
+        let mut edges = [(a, b); FAN];
+        (edges[1], edges[2]) = ((b, c), (c, a));
+        for circle in [(Point::new(1.0, 1.0), 1.0), (Point::new(0.5, 1.25), 0.75), (a, 0.0)] {
+            let rim = Rim::new(circle, &edges);
+            let disk = Pinned::touching([(&rim, 0), (&rim, 1), (&rim, 2)]).unwrap();
+            let centre = disk.base + disk.centre;
+            let off = (centre - Point::new(1.0, 1.0)).norm();
+            let off = off + (disk.base_radius + disk.radius - 1.0).abs();
+            assert!(off <= 1e-14 && disk.bound <= 1e-13, "{disk:?}");
+            // Clockwise there is none.
+            assert!(Pinned::touching([(&rim, 0), (&rim, 2), (&rim, 1)]).is_none());
+        }
+    }
+
+    #[test]
+    fn what_rests_tell_of_edges_around_a_disk_exact_arithmetic_tells_as_well() {
+        const N: usize = 64;
+        let corner = |k: usize| {
+            let (sin, cos) = (std::f64::consts::TAU * k as f64 / N as f64).sin_cos();
+            Point::new(7.0 + 3.0 * cos, 3.0 * sin - 1.0)
+        };
+        let corners: Vec<Point> = (0..N).map(corner).collect();
+        let edge = |k: usize| Element::Edge(corners[k % N], corners[(k + 1) % N]);
+        let apothem = 3.0 * (std::f64::consts::PI / N as f64).cos();
+        let rims = rims(&corners, (Point::new(7.0, -1.0), apothem));
+        let (mut told, mut cut) = (0, 0);
+        for (i, j, k) in [(0, 1, 2), (0, 21, 43), (5, 6, 40), (3, 11, 30), (60, 62, 63)] {
+            let line = |k: usize| (&rims[k / FAN], k % FAN);
+            let disk = Pinned::touching([line(i), line(j), line(k)]).unwrap();
+            let exact = ExactDisk::new([edge(i), edge(j), edge(k)]).unwrap();
+            for e in 0..N {
+                let (rest, error) = rims[e / FAN].rest(e % FAN, &disk);
+                let side = exact.side(edge(e));
+                if rest.abs() > error {
+                    let sign = if rest > 0.0 { Ordering::Greater } else { Ordering::Less };
+                    assert_eq!(side, sign, "edge {e} to {i}, {j}, {k}: {rest:e} {error:e}");
+                    told += 1;
+                    cut += usize::from(rest < 0.0);
+                }
+                // What is left out is clear.
+                for wide in [None, Wide::detect()] {
+                    let shown = rims[e / FAN].sift(&disk, 0xff, wide) >> (e % FAN) & 1;
+                    assert!(shown == 1 || side == Ordering::Greater, "edge {e}");
+                }
+            }
+        }
+        // All but the governors themselves and edges that are mirror images of them.
+        assert!(told >= 5 * (N - 6) && cut >= 20, "{told} {cut}");
+    }
+
+    #[test]
+    fn a_circle_through_nothing_leaves_every_edge_to_others() {
+        let p = Point::new(1.0, 2.0);
+        let rim = Rim::new((p, 0.0), &[(p, p); FAN]);
+        let disk = TouchingDisk { origin: p, centre: Point::default(), radius: 1.0, bound: 0.0 };
+        assert_eq!(rim.sift(&Pinned::from(&disk), 0xff, None), 0xff);
+        assert_eq!(rim.sift(&Pinned::from(&disk), 0xff, Wide::detect()), 0xff);
     }
 }

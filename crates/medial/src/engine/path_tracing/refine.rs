@@ -150,7 +150,8 @@ fn steps(governors: &[Governor; 3], centre: Point, radius: f64) -> Option<Refine
     let [a, b, c] = anchors;
     let nearer = if away(b) < away(a) { b } else { a };
     let origin = if away(c) < away(nearer) { c } else { nearer };
-    let frames = [0, 1, 2].map(|k| (Frame::new(&governors[k]), Vector::difference(anchors[k], origin)));
+    let frames =
+        [0, 1, 2].map(|k| (Frame::new(&governors[k]), Vector::difference(anchors[k], origin)));
     let curved = governors.iter().any(|g| matches!(g, Governor::Corner(_)));
     let mut local = Vector::difference(centre, origin);
     let mut r = Double::from(radius);
