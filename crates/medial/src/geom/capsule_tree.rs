@@ -22,11 +22,18 @@
 use std::sync::OnceLock;
 
 use super::lanes::{FAN, Lanes, Node, Query, VANISHING, Wide};
+use super::rims::{Pinned, Rim, circle};
 use super::rounds::Round;
 use super::{Point, Rect, hilbert};
 
 /// Edges of a leaf, at most.
 pub const LEAF: usize = FAN;
+
+/// Edges that share a circle; a multiple of those of a leaf.
+const RUN: u32 = 64;
+
+/// Edges of a leaf that are shown without another look at them.
+const SOME: u32 = 2;
 
 /// Levels of nodes in a tree over 2^32 edges, at most, rounded up to a power of two.
 const MOST_LEVELS: usize = 16;
@@ -83,6 +90,12 @@ pub trait Look {
     fn near(&self) -> u32;
     /// Takes one edge that may lie within.
     fn edge(&mut self, edge: u32);
+    /// The disk outside which edges of a leaf need not be shown, as precisely as the tree can give it;
+    /// asked only where several edges of a leaf may lie within.
+    #[inline]
+    fn pinned(&mut self) -> Option<&Pinned> {
+        None
+    }
     /// Is told when all edges of a leaf are taken.
     #[inline]
     fn leaf(&mut self) {}
@@ -109,6 +122,8 @@ pub struct CapsuleTree {
     wide: Option<Wide>,
     /// Circles for the runs below each level, once somebody asks for them.
     rounds: OnceLock<Vec<Vec<Round>>>,
+    /// The edges of each leaf relative to a circle, from then on.
+    rims: OnceLock<Vec<Rim>>,
 }
 
 impl CapsuleTree {
@@ -179,8 +194,21 @@ impl CapsuleTree {
             runs = above;
         }
         let wide = Wide::detect();
-        let rounds = OnceLock::new();
-        Self { order, base, n_edges, scale, slack, bounds, leaves, nodes, levels, wide, rounds }
+        let (rounds, rims) = (OnceLock::new(), OnceLock::new());
+        Self {
+            order,
+            base,
+            n_edges,
+            scale,
+            slack,
+            bounds,
+            leaves,
+            nodes,
+            levels,
+            wide,
+            rounds,
+            rims,
+        }
     }
 
     /// Bounds runs by circles as well, for boundaries that follow the rims of the disks looked into;
@@ -201,6 +229,29 @@ impl CapsuleTree {
             };
             sizes.map(of).collect()
         });
+        self.rims.get_or_init(|| {
+            let mut rims = Vec::with_capacity(self.leaves.len());
+            let at = |k: u32| ends(self.base + k);
+            for run in (0..self.n_edges).step_by(RUN as usize) {
+                let last = (run + RUN).min(self.n_edges) - 1;
+                let middle = at(run + (last - run).div_ceil(2));
+                let circle = circle(at(run).0, middle, at(last).1);
+                for first in (run..=last).step_by(FAN) {
+                    // Lanes to spare repeat the last one.
+                    let edges = std::array::from_fn(|k| at((first + k as u32).min(last)));
+                    rims.push(Rim::new(circle, &edges));
+                }
+            }
+            rims
+        });
+    }
+
+    /// An edge relative to the circle of its leaf, and its place there, if there are such circles.
+    #[inline]
+    #[must_use]
+    pub fn rim(&self, edge: u32) -> Option<(&Rim, usize)> {
+        let place = edge.wrapping_sub(self.base) as usize;
+        Some((self.rims.get()?.get(place / FAN)?, place % FAN))
     }
 
     /// The numbers of the edges.
@@ -252,7 +303,13 @@ impl CapsuleTree {
             let mut mask = runs.among(level, first);
             if level == 0 {
                 let leaf = &self.leaves[number as usize];
-                mask &= leaf.within(&aim.query, &[0.0; FAN], self.wide);
+                mask &= leaf.within(&aim.query, &[0.0; FAN], self.wide) & 0xff;
+                if mask.count_ones() > SOME
+                    && let Some(rims) = self.rims.get()
+                    && let Some(disk) = look.pinned()
+                {
+                    mask = rims[number as usize].sift(disk, mask, self.wide);
+                }
                 if mask != 0 {
                     self.show(first, mask, &hidden, look);
                     look.leaf();

@@ -58,7 +58,7 @@ impl Governor {
 }
 
 /// A disk in doubles, relative to a local origin, with a bound on its error.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TouchingDisk {
     /// Local origin: a corner of one of the governors.
     pub origin: Point,

@@ -9,6 +9,7 @@ mod lanes;
 mod orient;
 mod point;
 pub mod predicates;
+mod rims;
 mod rounds;
 
 pub use bounds_tree::{BoundsTree, Rect, Visitor};
@@ -18,3 +19,4 @@ pub use double::Double;
 pub use hilbert::hilbert;
 pub use orient::{cross_directions, orient2d};
 pub use point::Point;
+pub use rims::{Pinned, Rim};

@@ -634,12 +634,17 @@ impl Search<'_> {
             let here = self.passed.last().map_or(anchor, |p| Start::at(&p.disk));
             let gap = Gap::new(right, left, here, front);
             let triple = gap.triple(end.site);
+            let mut by_form = exact.is_none();
             let disk = if end.disk.bound.is_finite() {
                 end.disk
             } else {
                 let governors = self.domain.governors(triple);
-                match TouchingDisk::touching(&governors) {
-                    Some(disk) if disk.bound <= POOR * disk.radius => disk,
+                let found = TouchingDisk::touching(&governors);
+                match found.map(|disk| self.sharper(&triple, disk)) {
+                    Some(disk) if disk.bound <= POOR * disk.radius => {
+                        by_form = found == Some(disk);
+                        disk
+                    }
                     Some(disk) => exact.insert(self.certified(&triple, &disk)).rounded(),
                     None => exact.insert(self.exact(&triple)?).rounded(),
                 }
@@ -648,7 +653,7 @@ impl Search<'_> {
             let mut verify = Verify::certified(self, &gap, start, triple, disk, true);
             verify.run();
             let link = verify.link();
-            let by_form = exact.is_none();
+            by_form &= exact.is_none();
             let verdict = verify.verdict(&mut exact);
             exact = None;
             match verdict {
@@ -693,6 +698,17 @@ impl Search<'_> {
             }
         }
         None
+    }
+
+    /// A disk as it is, or relative to a circle near it where its bound is poor.
+    fn sharper(&self, triple: &[Site; 3], disk: TouchingDisk) -> TouchingDisk {
+        if disk.bound <= POOR * disk.radius {
+            return disk;
+        }
+        self.pinned(triple).map_or(disk, |pinned| {
+            let sharper = TouchingDisk::from(&pinned);
+            if sharper.bound < disk.bound { sharper } else { disk }
+        })
     }
 
     /// The nearest proposal that the boundary makes around an edge that is met beyond its end.

@@ -65,8 +65,12 @@ pub(super) fn position(domain: &Domain, list: &[Site], disk: &Fixed<'_>) -> Opti
             return Some(precise);
         }
     }
-    let exact = |t: &[Site; 3]| ExactDisk::new(t.map(|s| domain.element(s)));
-    exact(&triple).or_else(|| exact(&disk.triple)).map(|disk| disk.approximate())
+    // The same for every rotation of the three, bit for bit.
+    let exact = |&[a, b, c]: &[Site; 3]| {
+        let turned = [[a, b, c], [b, c, a], [c, a, b]].into_iter().min_by_key(|t| t[0]);
+        ExactDisk::new(turned?.map(|s| domain.element(s)))
+    };
+    exact(&triple).or_else(|| exact(&disk.triple)).map(|disk| disk.rounded_once())
 }
 
 /// The triple of a governor list with the widest spread of normals; of equal ones the first.

@@ -150,14 +150,16 @@ fn steps(governors: &[Governor; 3], centre: Point, radius: f64) -> Option<Refine
     let [a, b, c] = anchors;
     let nearer = if away(b) < away(a) { b } else { a };
     let origin = if away(c) < away(nearer) { c } else { nearer };
+    let frames =
+        [0, 1, 2].map(|k| (Frame::new(&governors[k]), Vector::difference(anchors[k], origin)));
     let curved = governors.iter().any(|g| matches!(g, Governor::Corner(_)));
     let mut local = Vector::difference(centre, origin);
     let mut r = Double::from(radius);
     let mut best: Option<Refined> = None;
     for _ in 0..MOST_STEPS {
         let residual = |k: usize| {
-            let a = Vector::difference(anchors[k], origin);
-            let (normal, rho) = residual(&governors[k], local.minus(a), r);
+            let (frame, a) = &frames[k];
+            let (normal, rho) = frame.residual(local.minus(*a), r);
             (normal, rho, a.value().x.abs() + a.value().y.abs())
         };
         let [(n1, p1, s1), (n2, p2, s2), (n3, p3, s3)] = [residual(0), residual(1), residual(2)];
@@ -201,21 +203,39 @@ fn steps(governors: &[Governor; 3], centre: Point, radius: f64) -> Option<Refine
     best
 }
 
-/// Unit normal towards the centre, rounded, and distance less radius; `q` leads from the corner, or
-/// from an end of the edge, to the centre.
-#[inline]
-fn residual(governor: &Governor, q: Vector, r: Double) -> (Point, f64) {
-    match *governor {
-        Governor::Corner(_) => {
-            let square = q.dot(q);
-            let distance = square.value().sqrt();
-            let rho = square.less_product(r, r) / (distance + r.value());
-            (q.value() * (1.0 / distance), rho)
+/// A governor as residuals need it.
+enum Frame {
+    Corner,
+    /// The way along an edge, its length, and the unit normal, rounded.
+    Edge(Vector, Double, Point),
+}
+
+impl Frame {
+    #[inline]
+    fn new(governor: &Governor) -> Self {
+        match *governor {
+            Governor::Corner(_) => Self::Corner,
+            Governor::Edge { start, end, direction } => {
+                let d = Vector::difference(end, start);
+                Self::Edge(d, d.dot(d).sqrt(), direction.perp())
+            }
         }
-        Governor::Edge { start, end, direction } => {
-            let d = Vector::difference(end, start);
-            let length = d.dot(d).sqrt();
-            (direction.perp(), d.cross(q).less_product(r, length) / length.value())
+    }
+
+    /// Unit normal towards the centre, rounded, and distance less radius; `q` leads from the corner, or
+    /// from an end of the edge, to the centre.
+    #[inline]
+    fn residual(&self, q: Vector, r: Double) -> (Point, f64) {
+        match *self {
+            Self::Corner => {
+                let square = q.dot(q);
+                let distance = square.value().sqrt();
+                let rho = square.less_product(r, r) / (distance + r.value());
+                (q.value() * (1.0 / distance), rho)
+            }
+            Self::Edge(d, length, normal) => {
+                (normal, d.cross(q).less_product(r, length) / length.value())
+            }
         }
     }
 }

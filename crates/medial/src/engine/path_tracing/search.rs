@@ -22,7 +22,7 @@ use crate::domain::{Corner, Domain, Site};
 use crate::engine::EngineError;
 use crate::engine::watch::Watch;
 use crate::geom::predicates::ExactDisk;
-use crate::geom::{CapsuleTree, Governor, Point, TouchingDisk};
+use crate::geom::{CapsuleTree, Governor, Pinned, Point, TouchingDisk};
 
 /// A third governor that was tried, with its disk.
 #[derive(Clone, Copy, Debug)]
@@ -125,6 +125,9 @@ const VISITS: u64 = 500;
 const MANY: u64 = 32;
 const NODES: u64 = 100;
 
+/// Nodes of one visit that count, so that a few that go through all do not tell for many.
+const MOST: u64 = 1024;
+
 /// Tries before only exact arithmetic proposes.
 const FLOATING_TRIES: usize = 48;
 
@@ -219,7 +222,7 @@ impl<'a> Search<'a> {
         if !self.rounded {
             self.rounded = true;
             self.work.set((0, 0));
-            self.tree.round_off(|k| (self.domain.edge(k).start, self.domain.end(k)));
+            self.round_off();
             return;
         }
         if nodes < NODES * visits {
@@ -235,11 +238,16 @@ impl<'a> Search<'a> {
         self.tree = self.sorted.get_or_init(sort).clone();
     }
 
+    /// Bounds the tree by circles as well.
+    pub fn round_off(&self) {
+        self.tree.round_off(|k| (self.domain.edge(k).start, self.domain.end(k)));
+    }
+
     /// Takes note of a visit of the tree through that many nodes.
     #[inline]
     pub fn count_visit(&self, entered: u64) {
         let (nodes, visits) = self.work.get();
-        self.work.set((nodes + entered, visits + 1));
+        self.work.set((nodes + entered.min(MOST), visits + 1));
     }
 
     /// The end of the path that leaves `start` between `right` and `left`.
@@ -505,11 +513,24 @@ impl<'a> Search<'a> {
 
     /// The exact disk of a triple that was certified.
     pub fn certified(&self, triple: &[Site; 3], disk: &TouchingDisk) -> ExactDisk {
-        ExactDisk::of_certified(triple.map(|s| self.domain.element(s)), disk)
+        let elements = triple.map(|s| self.domain.element(s));
+        match self.pinned(triple).filter(Pinned::is_precise) {
+            Some(disk) => ExactDisk::of_pinned(elements, &disk),
+            None => ExactDisk::of_certified(elements, disk),
+        }
+    }
+
+    /// The disk of three edges relative to a circle near them, if the tree has such circles.
+    pub fn pinned(&self, triple: &[Site; 3]) -> Option<Pinned> {
+        let [a, b, c] = triple.map(|s| if s.is_edge() { self.tree.rim(s.index()) } else { None });
+        Pinned::touching([a?, b?, c?])
     }
 
     /// The exact disk of a triple; `None` if there is none, or its radius is zero.
     pub fn exact(&self, triple: &[Site; 3]) -> Option<ExactDisk> {
+        if let Some(disk) = self.pinned(triple).filter(Pinned::is_precise) {
+            return Some(ExactDisk::of_pinned(triple.map(|s| self.domain.element(s)), &disk));
+        }
         let disk = ExactDisk::new(triple.map(|s| self.domain.element(s)))?;
         // Three edges may end at one point; their disk has its centre on each of them.
         let (edge, all_edges) = (triple[0].index(), triple.iter().all(|s| s.is_edge()));

@@ -9,12 +9,15 @@ use super::search::{Gap, Proposal, SLACK, Search, Start};
 use super::touch::{Seen, Touch};
 use crate::domain::{Corner, Edge, Site, Walk};
 use crate::geom::predicates::ExactDisk;
-use crate::geom::{Hidden, LEAF, Look, Point, Scope, TouchingDisk};
+use crate::geom::{Hidden, LEAF, Look, Pinned, Point, Scope, TouchingDisk};
 
 const U: f64 = f64::EPSILON / 2.0;
 
 /// Doubtful edges up to which a disk is not made more precise for them.
 const FEW: usize = 2;
+
+/// Doubtful edges of one disk from which the boundary is taken to follow disks inside it.
+const CROWD: usize = 32;
 
 /// What became of a disk.
 #[derive(Clone, Debug)]
@@ -73,6 +76,12 @@ pub(super) struct Verify<'s, 'a> {
     cutting: [Cutting; LEAF],
     n_cutting: usize,
     doubtful: SmallVec<[u32; 8]>,
+    /// The certified disk as precisely as it can be had, once many edges may touch it.
+    pinned: Option<Pinned>,
+    /// What is looked into while it is only a proposal.
+    hunted: Option<Pinned>,
+    /// An edge that certainly cuts the sharp disk. Then that is the disk of this edge, which comes earlier.
+    nearer: Option<u32>,
 }
 
 impl<'s, 'a> Verify<'s, 'a> {
@@ -105,6 +114,9 @@ impl<'s, 'a> Verify<'s, 'a> {
             cutting: [Cutting::default(); LEAF],
             n_cutting: 0,
             doubtful: SmallVec::new(),
+            pinned: None,
+            hunted: None,
+            nearer: None,
         }
     }
 
@@ -155,6 +167,7 @@ impl<'s, 'a> Verify<'s, 'a> {
 
     fn look_into(&mut self, disk: TouchingDisk) {
         self.disk = disk;
+        self.hunted = None;
         let start = self.anchor;
         self.scope = scope(start.centre, start.radius, start.doubt, &disk);
     }
@@ -267,6 +280,32 @@ impl<'s, 'a> Verify<'s, 'a> {
         outside / (outside + inside)
     }
 
+    /// Decides about an edge by the sharp disk, if there is one, and goes on with an earlier one where
+    /// that is cut within the ends of the edge; tells whether it could.
+    fn sharpen(&mut self, edge: u32, near: i8, x: f64, doubt: f64) -> bool {
+        let (search, link) = (self.search, self.passed.len());
+        let Some(disk) = self.pinned.filter(Pinned::is_solved) else { return false };
+        let Some((rim, k)) = search.tree.rim(edge) else { return false };
+        let (rest, error) = rim.rest(k, &disk);
+        if rest > error {
+            return true;
+        }
+        let length = search.domain.edge(edge).length;
+        let within = near == 0 && x > doubt && x < length * (1.0 - 8.0 * U) - doubt;
+        if rest >= -error
+            || !within
+            || self.link != link
+            || !search.may_be_third(self.gap, Site::edge(edge))
+        {
+            return false;
+        }
+        let triple = [self.triple[0], Site::edge(edge), self.triple[2]];
+        let Some(earlier) = search.pinned(&triple) else { return false };
+        self.pinned = Some(earlier);
+        self.nearer = Some(edge);
+        true
+    }
+
     /// A piece of the path that was passed.
     fn piece(&self, link: usize) -> Gap {
         let Passed { right, left, .. } = self.passed[link];
@@ -323,7 +362,10 @@ impl<'s, 'a> Verify<'s, 'a> {
         }
         let mut contacts = Contacts::new();
         let domain = search.domain;
-        let of_certified = || search.certified(&self.triple, &self.certified);
+        let of_certified = || match self.pinned.filter(Pinned::is_precise) {
+            Some(disk) => ExactDisk::of_pinned(self.triple.map(|s| domain.element(s)), &disk),
+            None => search.certified(&self.triple, &self.certified),
+        };
         // The three sites themselves, each touched within its zone.
         for (role, &site) in self.triple.iter().enumerate() {
             if !site.is_edge() {
@@ -365,6 +407,9 @@ impl<'s, 'a> Verify<'s, 'a> {
                     contacts.push(Site::corner(corner));
                 }
             }
+        }
+        if let Some(edge) = self.nearer {
+            return Verdict::Earlier(Site::edge(edge));
         }
         if !self.doubtful.is_empty() {
             let exact = exact.get_or_insert_with(of_certified);
@@ -464,6 +509,9 @@ impl Look for Verify<'_, '_> {
         if self.n_cutting > 0 {
             self.shrink_by_leaf();
         }
+        if self.doubtful.len() > CROWD {
+            self.search.round_off();
+        }
     }
 
     #[inline]
@@ -474,6 +522,20 @@ impl Look for Verify<'_, '_> {
     #[inline]
     fn near(&self) -> u32 {
         self.gap.left.index()
+    }
+
+    #[inline]
+    fn pinned(&mut self) -> Option<&Pinned> {
+        if self.hunting {
+            let disk = &self.disk;
+            // Only what clearly cuts it counts.
+            let bound = -SLACK / 2.0 * disk.radius;
+            let hunted = || Pinned::from(&TouchingDisk { bound, ..*disk });
+            return Some(self.hunted.get_or_insert_with(hunted));
+        }
+        Some(self.pinned.get_or_insert_with(|| {
+            self.search.pinned(&self.triple).unwrap_or_else(|| Pinned::from(&self.certified))
+        }))
     }
 
     #[inline]
@@ -525,7 +587,7 @@ impl Look for Verify<'_, '_> {
         if distance > d.radius + doubt {
         } else if distance < d.radius - doubt {
             self.cuts(edge, near);
-        } else {
+        } else if !self.sharpen(edge, near, x, doubt) {
             self.doubtful.push(edge);
         }
     }

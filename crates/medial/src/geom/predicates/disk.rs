@@ -12,7 +12,7 @@ use super::homogeneous::Homogeneous;
 use super::near::Near;
 use super::stages::special_side;
 use super::transition;
-use crate::geom::{Point, TouchingDisk};
+use crate::geom::{Pinned, Point, TouchingDisk};
 
 /// Error of a disk in doubles, as a share of its radius, up to which it is taken as it is.
 const SHARP: f64 = 64.0 * f64::EPSILON;
@@ -69,6 +69,13 @@ impl ExactDisk {
     /// The disk of three elements that was certified in doubles.
     pub(crate) fn of_certified(elements: [Element; 3], disk: &TouchingDisk) -> Self {
         Self::known(corners_first(elements), Near::from(disk))
+    }
+
+    /// The disk of three edges that is known relative to a circle.
+    pub(crate) fn of_pinned(elements: [Element; 3], disk: &Pinned) -> Self {
+        let fine = Fine::pinned(disk);
+        let known = Self::known(elements, fine.near());
+        if disk.is_sharp() { Self { fine: Some(fine).into(), ..known } } else { known }
     }
 
     fn known(elements: [Element; 3], near: Near) -> Self {
@@ -274,6 +281,14 @@ impl ExactDisk {
         fine.and_then(Fine::nearest)
             .or_else(|| self.form().map(Homogeneous::nearest))
             .unwrap_or_else(|| self.near.values())
+    }
+
+    /// Centre and radius, each rounded once where pairs of doubles know them well, so that coordinates
+    /// far smaller than the disk are right to an ulp of the disk only; else as of
+    /// [`approximate`](Self::approximate).
+    pub(crate) fn rounded_once(&self) -> (Point, f64) {
+        let fine = if self.form.get().is_none() { self.fine() } else { None };
+        fine.and_then(Fine::rounded).unwrap_or_else(|| self.approximate())
     }
 }
 

@@ -4,7 +4,7 @@ use std::cmp::Ordering;
 
 use super::Element;
 use super::near::{Near, SHORT, sign};
-use crate::geom::{Double, Point};
+use crate::geom::{Double, Pinned, Point};
 
 /// Half an ulp of 1.
 const U: f64 = f64::EPSILON / 2.0;
@@ -14,6 +14,9 @@ const U: f64 = f64::EPSILON / 2.0;
 /// A direction is right to 4·2^-100 of its components, a difference to 2^-100 of its operands, and
 /// products and sums add three more: less than 16·2^-100 in all.
 const ROUNDING: f64 = 1.0 / (1_u128 << 96) as f64;
+
+/// Error, as a share of the largest number of a disk, up to which rounding loses more: a quarter of an ulp.
+const CLEAR: f64 = f64::EPSILON / 4.0;
 
 /// Newton steps before a disk is left to integers; each one gains at least a bit.
 const STEPS: usize = 12;
@@ -151,6 +154,15 @@ impl Fine {
         best
     }
 
+    /// A disk that is known relative to a circle.
+    pub(super) fn pinned(disk: &Pinned) -> Self {
+        let Pinned { base, base_radius, centre, radius, bound, .. } = *disk;
+        let centre = Pair { x: centre.x.into(), y: centre.y.into() };
+        let radius = Double::from(base_radius) + radius.into();
+        let error = (bound + ROUNDING * radius.value()) * (1.0 + 8.0 * U);
+        Self { origin: base, centre, radius, error }
+    }
+
     /// The disk with its centre on the normal of an edge at its end `v`.
     fn on_normal(v: Point, [a, b]: [Point; 2], other: Element, radius: f64) -> Option<Self> {
         let mut disk =
@@ -231,6 +243,16 @@ impl Fine {
         let x = coordinate(self.origin.x, self.centre.x)?;
         let y = coordinate(self.origin.y, self.centre.y)?;
         Some((Point::new(x, y), nearest(self.radius, self.error)?))
+    }
+
+    /// Centre and radius, rounded, if they are known to a quarter of an ulp of the largest of the three
+    /// numbers.
+    pub(super) fn rounded(&self) -> Option<(Point, f64)> {
+        let x = (Double::from(self.origin.x) + self.centre.x).value();
+        let y = (Double::from(self.origin.y) + self.centre.y).value();
+        let radius = self.radius.value();
+        let size = x.abs().max(y.abs()).max(radius);
+        (self.error <= CLEAR * size).then_some((Point::new(x, y), radius))
     }
 
     /// The centre relative to a point, and a bound on the error of its distances and coordinates.
