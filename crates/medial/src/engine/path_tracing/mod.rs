@@ -23,6 +23,8 @@
 //! - The paper checks the end of a path only; a whole ring between two empty disks would be lost.
 //!   Here every ring must have been met in the end; if not, the polygon is traced again, and an index
 //!   over one corner of each hole is asked what lies between the disks of each piece.
+//! - A keypoint known already that waits for a path between the same two governors ahead is its end
+//!   without any search, unless a whole ring lies in between (`gaps.rs`).
 //! - Contacts that tie are collected at once, so no path has length zero.
 //! - Where no half-line bounds a path [JPV, Fig. 12] a growing probe finds the third governor.
 
