@@ -36,8 +36,9 @@ pub(super) struct Fixed<'a> {
 /// Centre and radius of a keypoint with these governors, within 4 ulp of max(|x|, |y|, radius).
 #[inline(never)]
 pub(super) fn position(domain: &Domain, list: &[Site], disk: &Fixed<'_>) -> Option<(Point, f64)> {
-    let found = Start::at(disk.own.unwrap_or(disk.found));
-    let triple = best_triple(domain, list, found.centre).unwrap_or(disk.triple);
+    let whole = disk.own.unwrap_or(disk.found);
+    let found = Start::at(whole);
+    let triple = best_triple(domain, list, whole).unwrap_or(disk.triple);
     let governors = domain.governors(triple);
     // Far from the start there may be another disk of the same three elements.
     let near = |c: Point, r: f64, doubt: f64| {
@@ -74,7 +75,10 @@ pub(super) fn position(domain: &Domain, list: &[Site], disk: &Fixed<'_>) -> Opti
 }
 
 /// The triple of a governor list with the widest spread of normals; of equal ones the first.
-fn best_triple(domain: &Domain, list: &[Site], centre: Point) -> Option<[Site; 3]> {
+///
+/// The disk is taken relative to its origin: rounded to the coordinates of a small shape far from
+/// the origin of the plane, its centre would let rounding choose.
+fn best_triple(domain: &Domain, list: &[Site], disk: &TouchingDisk) -> Option<[Site; 3]> {
     if let [a, b, c] = *list
         && !follows(domain, a, b)
         && !follows(domain, b, c)
@@ -107,7 +111,7 @@ fn best_triple(domain: &Domain, list: &[Site], centre: Point) -> Option<[Site; 3
         return Some([run.0, second, other]);
     }
     let sites: Vec<Site> = runs.iter().map(|r| r.0.min(r.1)).collect();
-    let normals: Vec<Point> = sites.iter().map(|&s| normal(domain, s, centre)).collect();
+    let normals: Vec<Point> = sites.iter().map(|&s| normal(domain, s, disk)).collect();
     let mut best: Option<(f64, [usize; 3])> = None;
     let mut weigh = |i: usize, j: usize, k: usize| {
         let spread = (normals[j] - normals[i]).cross(normals[k] - normals[i]);
@@ -132,12 +136,57 @@ fn best_triple(domain: &Domain, list: &[Site], centre: Point) -> Option<[Site; 3
     best.map(|(_, t)| t.map(|k| sites[k]))
 }
 
-fn normal(domain: &Domain, site: Site, centre: Point) -> Point {
+fn normal(domain: &Domain, site: Site, disk: &TouchingDisk) -> Point {
     let edge = domain.edge(site.index());
     if site.is_edge() {
         edge.direction.perp()
     } else {
-        let away = centre - edge.start;
+        let away = disk.centre + (disk.origin - edge.start);
         away * (1.0 / away.norm())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::domain::{Corner, Options};
+
+    #[test]
+    fn far_from_the_origin_rounding_does_not_choose_the_triple() {
+        // A cross of 37 ulp, whose four inner corners touch the disk in its middle: half an ulp from
+        // any double.
+        let ulp = f64::EPSILON * (1_u32 << 23) as f64;
+        let at = |x: f64, y: f64| Point::new(1e7 + 37.0 * x * ulp, 1e7 + 37.0 * y * ulp);
+        let ring = [
+            (0., -1.),
+            (1., -1.),
+            (1., 0.),
+            (2., 0.),
+            (2., 1.),
+            (1., 1.),
+            (1., 2.),
+            (0., 2.),
+            (0., 1.),
+            (-1., 1.),
+            (-1., 0.),
+            (0., 0.),
+        ];
+        let ring = ring.map(|(x, y)| at(x, y)).to_vec();
+        let domain = Domain::from_polygons(&[vec![ring]], &Options::default()).unwrap();
+        let corners: Vec<Site> = (0..12)
+            .filter(|&k| domain.edge(k).corner == Corner::Reflex)
+            .map(Site::corner)
+            .collect();
+        assert_eq!(corners.len(), 4);
+        let half = 18.5 * ulp;
+        let triple = |off: f64| {
+            let centre = Point::new(half + off, half + off);
+            let radius = half * 2.0_f64.sqrt();
+            let disk = TouchingDisk { origin: at(0.0, 0.0), centre, radius, bound: 1e-12 * radius };
+            best_triple(&domain, &corners, &disk)
+        };
+        assert!(triple(0.0).is_some());
+        assert_eq!(triple(1e-13 * half), triple(0.0));
+        assert_eq!(triple(-1e-13 * half), triple(0.0));
     }
 }
