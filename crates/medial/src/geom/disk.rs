@@ -132,13 +132,7 @@ impl TouchingDisk {
             &Governor::Edge { start: e, end: f, .. },
         ] = g
         {
-            let mut best = f64::INFINITY;
-            for end in [a, b, c, d, e, f] {
-                let distance = (end - near).norm2();
-                if distance < best {
-                    (best, origin) = (distance, end);
-                }
-            }
+            origin = nearest([a, b, c, d, e, f], near);
         }
         Self::form(g, origin)
     }
@@ -150,12 +144,10 @@ impl TouchingDisk {
         let (origin, centre, radius) = match g {
             [&Corner(p), &Corner(q), &Corner(s)] => {
                 let (a, b) = (q - p, s - p);
-                let d = 2.0 * a.cross(b);
-                if d <= 0.0 {
+                if a.cross(b) <= 0.0 {
                     return None;
                 }
-                let (a2, b2) = (a.norm2(), b.norm2());
-                let c = Point::new((b.y * a2 - a.y * b2) / d, (a.x * b2 - b.x * a2) / d);
+                let c = Point::circumcentre(a, b);
                 (p, c, c.norm())
             }
             [&Corner(p), &Corner(q), &Edge { start, end, direction }] => {
@@ -274,13 +266,7 @@ impl TouchingDisk {
         {
             // The nearest end is the best origin.
             let centre = disk.position();
-            let mut nearest = f64::INFINITY;
-            for p in [a, b, c, d, e, f] {
-                let distance = (p - centre).norm2();
-                if distance < nearest {
-                    (nearest, disk.origin) = (distance, p);
-                }
-            }
+            disk.origin = nearest([a, b, c, d, e, f], centre);
             disk.centre = centre - disk.origin;
         }
         disk.certify(g)
@@ -484,6 +470,19 @@ impl TouchingDisk {
         disk.bound = bound;
         (r > 0.0 && bound < r).then_some(disk)
     }
+}
+
+/// The first of the points nearest to one.
+#[inline]
+fn nearest(points: [Point; 6], to: Point) -> Point {
+    let mut best = (f64::INFINITY, points[0]);
+    for p in points {
+        let distance = (p - to).norm2();
+        if distance < best.0 {
+            best = (distance, p);
+        }
+    }
+    best.1
 }
 
 /// The governors turned so that corners come first.

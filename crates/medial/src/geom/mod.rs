@@ -14,6 +14,7 @@ mod rounds;
 
 pub use bounds_tree::{BoundsTree, Rect, Visitor};
 pub use capsule_tree::{CapsuleTree, Hidden, LEAF, Look, Scope};
+pub(crate) use disk::U;
 pub use disk::{Governor, TouchingDisk, Unsure};
 pub use double::Double;
 pub use hilbert::hilbert;

@@ -57,6 +57,14 @@ impl Point {
         self.norm2().sqrt()
     }
 
+    /// The centre of the circle through the origin and two points, if their cross product is not zero.
+    #[inline]
+    pub(crate) fn circumcentre(a: Self, b: Self) -> Self {
+        let twice = 2.0 * a.cross(b);
+        let (a2, b2) = (a.norm2(), b.norm2());
+        Self::new((b.y * a2 - a.y * b2) / twice, (a.x * b2 - b.x * a2) / twice)
+    }
+
     /// Orders by x, then by y.
     ///
     /// # Panics

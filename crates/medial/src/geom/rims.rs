@@ -16,10 +16,7 @@
 //! None.
 
 use super::lanes::{FAN, Wide};
-use super::{Double, Point, TouchingDisk};
-
-/// Half an ulp of 1.
-const U: f64 = f64::EPSILON / 2.0;
+use super::{Double, Point, TouchingDisk, U};
 
 /// Rounding of a residual in pairs of doubles, relative to the sizes that enter it: twenty operations
 /// of at most 2^-100 each, with room to spare.
@@ -82,13 +79,11 @@ struct Moved {
 /// distance of that edge from it; its end where there is no circle.
 pub(super) fn circle(first: Point, (q, to): (Point, Point), last: Point) -> (Point, f64) {
     let (a, b) = (q - first, last - first);
-    let twice = 2.0 * a.cross(b);
-    let (a2, b2) = (a.norm2(), b.norm2());
-    let way = Point::new((b.y * a2 - a.y * b2) / twice, (a.x * b2 - b.x * a2) / twice);
+    let way = Point::circumcentre(a, b);
     let centre = first + way;
     let d = to - q;
     let radius = (d.cross(centre - q) / d.norm()).abs();
-    let near = way.norm2() <= FLAT * FLAT * (a2 + b2) && radius.is_finite();
+    let near = way.norm2() <= FLAT * FLAT * (a.norm2() + b.norm2()) && radius.is_finite();
     if near { (centre, radius) } else { (to, 0.0) }
 }
 

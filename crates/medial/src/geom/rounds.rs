@@ -13,10 +13,7 @@
 //! # Departures
 //! None.
 
-use super::Point;
-
-/// Half an ulp of 1.
-const U: f64 = f64::EPSILON / 2.0;
+use super::{Point, U};
 
 /// Radius of a circle, in lengths of the run, beyond which rounding blurs more than the circle tells.
 const FLAT: f64 = (1_u64 << 24) as f64;
@@ -53,10 +50,8 @@ impl Round {
             return Self::NONE;
         };
         let (a, b) = (q - p, s - p);
-        let twice = 2.0 * a.cross(b);
-        let (a2, b2) = (a.norm2(), b.norm2());
-        let way = Point::new((b.y * a2 - a.y * b2) / twice, (a.x * b2 - b.x * a2) / twice);
-        let near = way.norm2() <= FLAT * FLAT * (a2 + b2);
+        let way = Point::circumcentre(a, b);
+        let near = way.norm2() <= FLAT * FLAT * (a.norm2() + b.norm2());
         if !near {
             return Self::NONE;
         }

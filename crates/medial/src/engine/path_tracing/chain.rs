@@ -27,10 +27,7 @@ use super::search::{Before, Found, Gap, Proposal, SLACK, Search, Start, contact_
 use super::verify::{Verdict, Verify, cuts_clearly};
 use crate::domain::{Corner, Domain, Edge, Site};
 use crate::geom::predicates::{First, Leaving, two_ends};
-use crate::geom::{Point, TouchingDisk, Unsure};
-
-/// Half an ulp of 1.
-const U: f64 = f64::EPSILON / 2.0;
+use crate::geom::{Point, TouchingDisk, U, Unsure};
 
 /// Transitions after which the disk is looked into, however little the radius grows.
 const LONGEST: usize = 32;

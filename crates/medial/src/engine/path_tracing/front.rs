@@ -1,7 +1,5 @@
 use crate::domain::{Domain, Site};
-use crate::geom::{Hidden, Point, Scope, TouchingDisk};
-
-const U: f64 = f64::EPSILON / 2.0;
+use crate::geom::{Hidden, Point, Scope, TouchingDisk, U};
 
 /// The part of one boundary walk that a path can meet.
 ///

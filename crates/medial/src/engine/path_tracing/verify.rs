@@ -9,9 +9,7 @@ use super::search::{Gap, Proposal, SLACK, Search, Start};
 use super::touch::{Seen, Touch};
 use crate::domain::{Corner, Edge, Site, Walk};
 use crate::geom::predicates::ExactDisk;
-use crate::geom::{Hidden, LEAF, Look, Pinned, Point, Scope, TouchingDisk};
-
-const U: f64 = f64::EPSILON / 2.0;
+use crate::geom::{Hidden, LEAF, Look, Pinned, Point, Scope, TouchingDisk, U};
 
 /// Doubtful edges up to which a disk is not made more precise for them.
 const FEW: usize = 2;

@@ -4,10 +4,7 @@ use std::cmp::Ordering;
 
 use super::Element;
 use super::near::{Near, SHORT, sign};
-use crate::geom::{Double, Pinned, Point};
-
-/// Half an ulp of 1.
-const U: f64 = f64::EPSILON / 2.0;
+use crate::geom::{Double, Pinned, Point, U};
 
 /// Rounding of a distance, or of a sum of two products, relative to the sizes that enter it.
 ///

@@ -6,10 +6,7 @@ use super::Element;
 use super::homogeneous::{Homogeneous, Radius};
 use super::rough::Rough;
 use super::tower::Surd;
-use crate::geom::{Governor, Point, TouchingDisk};
-
-/// Half an ulp of 1.
-const U: f64 = f64::EPSILON / 2.0;
+use crate::geom::{Governor, Point, TouchingDisk, U};
 
 /// Rounding of a product of two sums of two differences, relative to the sizes of its terms.
 ///

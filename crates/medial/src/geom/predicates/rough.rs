@@ -4,8 +4,7 @@ use std::cmp::Ordering;
 
 use dashu_int::{IBig, Sign};
 
-/// Half an ulp of 1.
-const U: f64 = f64::EPSILON / 2.0;
+use crate::geom::U;
 
 /// Bits of a word of an integer.
 const WORD: usize = dashu_int::Word::BITS as usize;
