@@ -25,6 +25,16 @@ pub(crate) const U: f64 = f64::EPSILON / 2.0;
 /// Twice the area of the triangle of three normals from which plain differences of distances will do.
 const WIDE: f64 = 1e-3;
 
+/// Error of the distance from a line, as a share of its two products, in half ulps: three for the
+/// direction, one each for the difference, the product and the sum, and a margin.
+const LINE_ERROR: f64 = 6.5;
+
+/// Share of their rounding errors below which residuals need no further step.
+const SETTLED: f64 = 0.25;
+
+/// Newton steps of a certificate, at most.
+const MOST_STEPS: usize = 4;
+
 /// A boundary element with what doubles need to compute with it.
 #[derive(Clone, Copy, Debug)]
 pub enum Governor {
@@ -70,6 +80,38 @@ pub struct TouchingDisk {
     pub bound: f64,
 }
 
+/// A governor relative to the origin of a disk.
+#[derive(Clone, Copy, Debug)]
+struct Local {
+    /// The corner, or an end of the edge.
+    at: Point,
+    /// Unit vector along the edge.
+    direction: Option<Point>,
+    /// What the place adds to the rounding of distances.
+    far: f64,
+}
+
+impl Local {
+    /// Unit normal towards the centre, residual `distance - r` and its rounding error; not a number in
+    /// a corner.
+    #[inline(always)]
+    fn residual(&self, centre: Point, radius: f64) -> (Point, f64, f64) {
+        let q = centre - self.at;
+        match self.direction {
+            None => {
+                let distance = q.norm();
+                let error = U * (4.0 * distance + self.far + radius);
+                (q * (1.0 / distance), distance - radius, error)
+            }
+            Some(u) => {
+                let (left, right) = (q.y * u.x, q.x * u.y);
+                let error = U * (LINE_ERROR * (left.abs() + right.abs()) + self.far + radius);
+                (u.perp(), (left - right) - radius, error)
+            }
+        }
+    }
+}
+
 /// Doubles cannot tell whether there is such a disk, or where.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Unsure;
@@ -113,9 +155,9 @@ impl TouchingDisk {
     #[must_use]
     pub fn is_precise(&self) -> bool {
         let position = self.position();
+        let size = larger(larger(position.x.abs(), position.y.abs()), self.radius);
         // Three units in the last place at most; rounding adds half a one.
-        let precise = |size: f64| self.bound <= 1.5 * f64::EPSILON * size;
-        precise(self.radius) || precise(position.x.abs()) || precise(position.y.abs())
+        self.bound <= 3.0 * unit_in_the_last_place(size)
     }
 
     /// The disk that touches three elements counterclockwise in the order given, uncertified.
@@ -352,84 +394,73 @@ impl TouchingDisk {
     /// The same for governors none of which ends at another one.
     fn certify(&self, governors: [&Governor; 3]) -> Option<Self> {
         let mut disk = *self;
-        let mut step = f64::INFINITY;
-        for _ in 0..4 {
-            let [(n1, p1, _), (n2, p2, _), (n3, p3, _)] = disk.residuals(governors);
+        let locals = governors.map(|g| disk.local(g));
+        let mut before = f64::INFINITY;
+        for _ in 0..=MOST_STEPS {
+            let [(n1, p1, e1), (n2, p2, e2), (n3, p3, e3)] =
+                locals.map(|g| g.residual(disk.centre, disk.radius));
             let (b, e) = (n2 - n1, n3 - n1);
             let d = b.cross(e);
             if d.is_nan() || d <= 12.0 * U {
                 return None;
             }
-            let (p12, p13) = (p1 - p2, p1 - p3);
-            let dx = Point::new((p12 * e.y - p13 * b.y) / d, (b.x * p13 - e.x * p12) / d);
-            let before = step;
-            step = p1.abs() + p2.abs() + p3.abs();
-            // A start that is good already needs one step; a poor one converges quadratically.
-            if step >= before {
-                break;
+            let off = p1.abs() + p2.abs() + p3.abs();
+            // A start that is good needs no step; a poor one converges quadratically.
+            if off > SETTLED * (e1 + e2 + e3) && off < before / 2.0 {
+                before = off;
+                let (p12, p13) = (p1 - p2, p1 - p3);
+                let per = 1.0 / d;
+                let dx =
+                    Point::new((p12 * e.y - p13 * b.y) * per, (b.x * p13 - e.x * p12) * per);
+                disk.centre = disk.centre + dx;
+                disk.radius += p1 + n1.dot(dx);
+                continue;
             }
-            disk.centre = disk.centre + dx;
-            disk.radius += p1 + n1.dot(dx);
-            if step <= 64.0 * U * disk.radius {
-                break;
-            }
-        }
-        let [(n1, p1, e1), (n2, p2, e2), (n3, p3, e3)] = disk.residuals(governors);
-        let d = (n2 - n1).cross(n3 - n1) - 12.0 * U;
-        if d.is_nan() || d <= 0.0 || disk.radius.is_nan() || disk.radius <= 0.0 {
-            return None;
-        }
-        let (l1, l2, l3) = ((n2 - n3).norm(), (n3 - n1).norm(), (n1 - n2).norm());
-        let factor = 2.0 / d;
-        let mut bound =
-            factor * (l1 * (p1.abs() + e1) + l2 * (p2.abs() + e2) + l3 * (p3.abs() + e3));
-        if governors.iter().any(|g| matches!(g, Governor::Corner(_))) {
-            let k = factor * (l1 + l2 + l3);
-            if 32.0 * k * bound > disk.radius {
+            if disk.radius.is_nan() || disk.radius <= 0.0 {
                 return None;
             }
-            bound *= 1.25;
+            let (l1, l2, l3) = ((n2 - n3).norm(), e.norm(), b.norm());
+            let factor = 2.0 / (d - 12.0 * U);
+            let mut bound =
+                factor * (l1 * (p1.abs() + e1) + l2 * (p2.abs() + e2) + l3 * (p3.abs() + e3));
+            if locals.iter().any(|g| g.direction.is_none()) {
+                let k = factor * (l1 + l2 + l3);
+                if 32.0 * k * bound > disk.radius {
+                    return None;
+                }
+                bound *= 1.25;
+            }
+            disk.bound = bound;
+            return (bound < disk.radius).then_some(disk);
         }
-        disk.bound = bound;
-        (bound < disk.radius).then_some(disk)
+        None
     }
 
-    /// Normal, residual `distance - r` and its rounding error for each governor.
+    /// A governor relative to the origin of this disk, an edge by its end nearer to the centre, where
+    /// rounding is least.
     #[inline]
-    fn residuals(&self, governors: [&Governor; 3]) -> [(Point, f64, f64); 3] {
-        let of = |g: &Governor| {
-            let (n, distance, error) = self.distance(g);
-            (n, distance - self.radius, error)
-        };
-        [of(governors[0]), of(governors[1]), of(governors[2])]
+    fn local(&self, g: &Governor) -> Local {
+        let relative = |p: Point| p - self.origin;
+        match *g {
+            Governor::Corner(p) => {
+                let at = relative(p);
+                Local { at, direction: None, far: at.x.abs() + at.y.abs() }
+            }
+            Governor::Edge { start, end, direction: u } => {
+                let (from, to) = (relative(start), relative(end));
+                let nearer = (self.centre - from).norm2() <= (self.centre - to).norm2();
+                let at = if nearer { from } else { to };
+                Local { at, direction: Some(u), far: (at.y * u.x).abs() + (at.x * u.y).abs() }
+            }
+        }
     }
 
     /// Unit normal towards the centre, distance and error bound of the residual; not a number in
     /// a corner.
     #[inline]
     fn distance(&self, g: &Governor) -> (Point, f64, f64) {
-        match *g {
-            Governor::Corner(p) => {
-                let a = p - self.origin;
-                let q = self.centre - a;
-                let distance = q.norm();
-                let error = U * (4.0 * distance + a.x.abs() + a.y.abs() + self.radius);
-                (q * (1.0 / distance), distance, error)
-            }
-            Governor::Edge { start, end, direction: u } => {
-                // From the nearer end, where rounding is least.
-                let (from_start, from_end) = (start - self.origin, end - self.origin);
-                let (p, q) = (self.centre - from_start, self.centre - from_end);
-                let (a, q) = if p.norm2() <= q.norm2() { (from_start, p) } else { (from_end, q) };
-                let (left, right) = (q.y * u.x, q.x * u.y);
-                let error = U
-                    * (8.0 * (left.abs() + right.abs())
-                        + (a.y * u.x).abs()
-                        + (a.x * u.y).abs()
-                        + self.radius);
-                (u.perp(), left - right, error)
-            }
-        }
+        let (n, rho, error) = self.local(g).residual(self.centre, 0.0);
+        (n, rho, error + U * self.radius)
     }
 
     /// The disk whose centre lies on the normal of `edge` at its end `corner`, touching `other`.
@@ -470,6 +501,18 @@ impl TouchingDisk {
         disk.bound = bound;
         (r > 0.0 && bound < r).then_some(disk)
     }
+}
+
+/// The larger of two numbers.
+#[inline(always)]
+fn larger(a: f64, b: f64) -> f64 {
+    if a > b { a } else { b }
+}
+
+/// The distance of a positive number from the next larger one; zero for very small ones.
+#[inline(always)]
+fn unit_in_the_last_place(x: f64) -> f64 {
+    f64::from_bits(x.to_bits() & f64::INFINITY.to_bits()) * f64::EPSILON
 }
 
 /// The first of the points nearest to one.

@@ -22,6 +22,7 @@ use std::cmp::Ordering;
 
 use super::contacts::follows;
 use super::front::Front;
+use super::nearby::{FEW as FEW_AHEAD, Nearby};
 use super::rings::{Link, Round};
 use super::search::{Before, Found, Gap, Proposal, SLACK, Search, Start, contact_behind};
 use super::verify::{Verdict, Verify, cuts_clearly};
@@ -46,7 +47,7 @@ const FAR: f64 = 3.0;
 
 /// Bound of a disk, as a share of its radius, above which exact arithmetic rounds it: what it leaves in
 /// doubt would be asked of exact arithmetic one by one.
-const POOR: f64 = 1e-9;
+pub(super) const POOR: f64 = 1e-9;
 
 /// Disks looked into before the path is left to exact arithmetic.
 const MOST_ROUNDS: usize = 64;
@@ -67,11 +68,13 @@ pub(super) struct Passed {
 
 /// What happens next on a path.
 #[derive(Clone, Copy, Debug)]
-enum Event {
-    /// A governor leaves: the disk on the normal at its end, and what governs in its place.
-    Leave { disk: TouchingDisk, site: Site },
-    /// The boundary turns left: the edge beyond the corner is met.
-    Meet { disk: TouchingDisk, site: Site },
+struct Event {
+    disk: TouchingDisk,
+    /// What is met, or governs in the place of a governor that leaves.
+    site: Site,
+    /// Whether a governor leaves, on the normal at its end; else the boundary turns left, and the edge
+    /// beyond the corner is met.
+    leaves: bool,
 }
 
 /// Where a governor of a path leaves: on the normal of an edge at a point, where the site takes over.
@@ -102,14 +105,6 @@ enum Reach {
     Past,
 }
 
-impl Event {
-    fn disk(&self) -> &TouchingDisk {
-        match self {
-            Self::Leave { disk, .. } | Self::Meet { disk, .. } => disk,
-        }
-    }
-}
-
 impl Search<'_> {
     /// The end of the path that leaves `start` between `right` and `left`, with what it passes on
     /// the way in `self.passed`; `None` if doubles and a few exact questions cannot tell.
@@ -138,68 +133,84 @@ impl Search<'_> {
                 return self.ends_in_corner(r, l, start);
             }
             let gap = Gap::new(r, l, here, front);
-            if let Some(known) = before.and_then(|before| self.known_end(&gap, start, before)) {
+            if let Some(before) = before
+                && let Some(known) = self.known_end(&gap, start, before)
+            {
                 self.link = (r, l);
                 return Some(Found::Known(known));
             }
             let event = self.next_event(&gap);
-            if event.is_err() && self.passed.is_empty() {
-                return None;
-            }
-            let endless = matches!(event, Ok(None));
-            let event = event.unwrap_or(None);
-            let cut = |disk: &TouchingDisk| {
-                self.behind.iter().any(|&e| {
-                    let edge = self.domain.edge(e);
-                    cuts_clearly(disk, edge.start, self.domain.end(e), edge)
-                })
-            };
-            let doubted = self.passed.last().is_some_and(|last| event.is_none() || cut(&last.disk));
-            let crossing = |last: &Passed| last.n_contacts == 4 && !cut(&last.disk);
-            if endless && self.passed.last().is_some_and(crossing) {
-                // Out of a corridor whose sides end at once: what lies across it comes next.
-                self.link = (r, l);
-                if let Some(end) = self.approach(start, &gap, None, here.radius) {
-                    return self.settle_chain(start, front, end);
-                }
-            }
-            if doubted {
-                // The last transition passed is none: something cuts its disk.
-                if let Some(last) = self.passed.pop() {
-                    self.link = (last.right, last.left);
-                    // The second of its contacts is new, on whatever side.
-                    let end = Proposal { site: last.contacts[1], disk: last.disk, position: 0.0 };
-                    return self.settle_chain(start, front, end);
-                }
-            }
-            let radius = event.map_or(f64::INFINITY, |e| e.disk().radius);
-            if let Some(Event::Leave { disk, site }) = event
-                && radius <= GROWTH * known
+            if let Ok(Some(Event { disk, site, leaves: true })) = event
+                && disk.radius <= GROWTH * known
                 && self.passed.len() < LONGEST
-                && self.look_ahead(&gap, &disk).is_none()
+                && self.behind.is_empty()
+                && (!self.is_far(&gap, &disk) || self.next_elements(&gap, &disk).is_none())
             {
                 (r, l) = self.pass(r, l, disk, site);
                 here = Start::at(&disk);
                 continue;
             }
-            let mut end = event.map(|event| {
-                let (Event::Leave { disk, site } | Event::Meet { disk, site }) = event;
-                Proposal { site, disk, position: gap.course(self.domain).position(&disk) }
-            });
+            if event.is_err() && self.passed.is_empty() {
+                return None;
+            }
             // Beyond a transition the edges at the start tell nothing.
             let known = if self.passed.is_empty() { known } else { here.radius };
-            self.link = (r, l);
-            if radius > LEAP * known {
-                end = self.approach(start, &gap, end, known);
-            }
-            if let Some(Proposal { disk, .. }) = end
-                && self.link == (gap.right, gap.left)
-                && let Some(nearer) = self.look_ahead(&gap, &disk)
-            {
-                end = Some(nearer);
-            }
-            return self.settle_chain(start, front, end?);
+            return self.end_chain(start, &gap, event, known);
         }
+    }
+
+    /// The end of a path whose next event is none that can be passed.
+    #[inline(never)]
+    fn end_chain(
+        &mut self,
+        anchor: Start,
+        gap: &Gap,
+        event: Result<Option<Event>, Unsure>,
+        known: f64,
+    ) -> Option<Found> {
+        let front = gap.front;
+        let endless = matches!(event, Ok(None));
+        let event = event.unwrap_or(None);
+        let cut = |disk: &TouchingDisk| {
+            self.behind.iter().any(|&e| {
+                let edge = self.domain.edge(e);
+                cuts_clearly(disk, edge.start, self.domain.end(e), edge)
+            })
+        };
+        let doubted = self.passed.last().is_some_and(|last| event.is_none() || cut(&last.disk));
+        let crossing = |last: &Passed| last.n_contacts == 4 && !cut(&last.disk);
+        self.link = (gap.right, gap.left);
+        if endless && self.passed.last().is_some_and(crossing) {
+            // Out of a corridor whose sides end at once: what lies across it comes next.
+            if let Some(end) = self.approach(anchor, gap, None, gap.start.radius) {
+                return self.settle_chain(anchor, front, end);
+            }
+        }
+        if doubted {
+            // The last transition passed is none: something cuts its disk.
+            if let Some(last) = self.passed.pop() {
+                self.link = (last.right, last.left);
+                // The second of its contacts is new, on whatever side.
+                let end = Proposal { site: last.contacts[1], disk: last.disk, position: 0.0 };
+                return self.settle_chain(anchor, front, end);
+            }
+        }
+        let mut end = event.map(|Event { disk, site, .. }| Proposal {
+            site,
+            disk,
+            position: gap.course(self.domain).position(&disk),
+        });
+        if end.is_none_or(|e| e.disk.radius > LEAP * known) {
+            end = self.approach(anchor, gap, end, known);
+        }
+        if let Some(Proposal { disk, .. }) = end
+            && self.link == (gap.right, gap.left)
+            && self.is_far(gap, &disk)
+            && let Some(nearer) = self.next_elements(gap, &disk)
+        {
+            end = Some(nearer);
+        }
+        self.settle_chain(anchor, front, end?)
     }
 
     /// The nearest keypoint ahead that waits for a path between these governors, if no ring lies
@@ -207,6 +218,7 @@ impl Search<'_> {
     ///
     /// Both disks are empty and touch both governors, whose footpoints move on from one to the other:
     /// so this is the path between them, unless a whole ring lies in its pocket.
+    #[inline(never)]
     fn known_end(&self, gap: &Gap, anchor: Start, before: Before<'_>) -> Option<u32> {
         let mut nearest: Option<(u32, TouchingDisk, f64)> = None;
         for keypoint in before.gaps.keypoints(gap.left, gap.right) {
@@ -232,17 +244,17 @@ impl Search<'_> {
         self.may_be_open(right, left, anchor, end).then_some(Found::Corner(left.index()))
     }
 
-    /// Where a disk of the path is many edges away, a nearer one that the next elements of the
-    /// boundary propose.
-    #[inline]
-    fn look_ahead(&self, gap: &Gap, disk: &TouchingDisk) -> Option<Proposal> {
+    /// Whether a disk of the path is many edges away.
+    #[inline(always)]
+    fn is_far(&self, gap: &Gap, disk: &TouchingDisk) -> bool {
         let length = |s: Site| self.domain.edge(s.index()).length;
         let local = length(gap.right).min(length(gap.left));
         let way = disk.centre + (disk.origin - gap.start.centre);
-        let far = way.norm2() > (FAR * local) * (FAR * local);
-        if far { self.next_elements(gap, disk) } else { None }
+        way.norm2() > (FAR * local) * (FAR * local)
     }
 
+    /// A nearer disk than one of the path that the next elements of the boundary propose.
+    #[inline(never)]
     fn next_elements(&self, gap: &Gap, disk: &TouchingDisk) -> Option<Proposal> {
         let mut disk = *disk;
         let mut best: Option<Proposal> = None;
@@ -329,7 +341,7 @@ impl Search<'_> {
         let direction = self.domain.edge(normal.edge).direction;
         let other = self.domain.governor(other);
         let disk = TouchingDisk::on_normal(normal.at, direction, &other, self.largest)?;
-        Ok(disk.map(|disk| Event::Leave { disk, site: normal.site }))
+        Ok(disk.map(|disk| Event { disk, site: normal.site, leaves: true }))
     }
 
     /// A proposal for the disk that meets the edge beyond a convex corner at an end of the right
@@ -354,7 +366,7 @@ impl Search<'_> {
         if !ahead {
             self.behind.push(edge);
         }
-        ahead.then_some(Event::Meet { disk, site })
+        ahead.then_some(Event { disk, site, leaves: false })
     }
 
     /// Where a certified disk ahead lies to the normal on which a governor leaves, on the right of the
@@ -438,8 +450,11 @@ impl Search<'_> {
         let endings = self.ending_right(r).zip(self.ending_left(l)).ok_or(Unsure)?;
         let (edge, normal, other, side) = match endings {
             (Ending::Turn { edge: e }, Ending::Turn { edge: f }) => {
+                if e == f {
+                    return Ok(self.meet(gap, e, true));
+                }
                 let (a, b) = (self.meet(gap, e, true), self.meet(gap, f, false));
-                let position = |e: &Event| gap.course(self.domain).position(e.disk());
+                let position = |e: &Event| gap.course(self.domain).position(&e.disk);
                 return Ok(match (a, b) {
                     (Some(a), Some(b)) => Some(if position(&b) < position(&a) { b } else { a }),
                     (a, b) => a.or(b),
@@ -454,10 +469,10 @@ impl Search<'_> {
         // The one that turns stays while the other one leaves.
         let leave = |this: &Self| {
             let event = this.leave(normal, other)?;
-            Ok(event.filter(|e| this.advances(gap, e.disk(), -side)))
+            Ok(event.filter(|e| this.advances(gap, &e.disk, -side)))
         };
         let Some(meet) = self.meet(gap, edge, side < 0.0) else { return leave(self) };
-        Ok(match self.reach(gap, normal, meet.disk(), side)? {
+        Ok(match self.reach(gap, normal, &meet.disk, side)? {
             Reach::Past => Some(leave(self)?.ok_or(Unsure)?),
             Reach::Within | Reach::Level => Some(meet),
         })
@@ -473,20 +488,20 @@ impl Search<'_> {
     ) -> Result<Option<Event>, Unsure> {
         let (r, l) = (gap.right, gap.left);
         let first = |this: &Self, event: Option<Event>, allowed: &[Reach]| match event {
-            Some(b) if allowed.contains(&this.reach(gap, right, b.disk(), 1.0)?) => Ok(Some(b)),
+            Some(b) if allowed.contains(&this.reach(gap, right, &b.disk, 1.0)?) => Ok(Some(b)),
             Some(_) => Err(Unsure),
             None => Ok(None),
         };
         let Some(a) = self.leave(right, l)? else {
             return first(self, self.leave(left, r)?, &[Reach::Within]);
         };
-        match self.reach(gap, left, a.disk(), -1.0)? {
+        match self.reach(gap, left, &a.disk, -1.0)? {
             Reach::Within => Ok(Some(a)),
             Reach::Past => {
                 let b = self.leave(left, r)?.ok_or(Unsure)?;
                 first(self, Some(b), &[Reach::Within])
             }
-            Reach::Level => match self.level(r, l, &right, &left, a.disk()) {
+            Reach::Level => match self.level(r, l, &right, &left, &a.disk) {
                 Ordering::Greater => Ok(Some(a)),
                 Ordering::Less => {
                     let b = self.leave(left, r)?.ok_or(Unsure)?;
@@ -603,7 +618,7 @@ impl Search<'_> {
     }
 
     /// Drops what was passed from a link on, whose governors are then in `self.link`.
-    fn go_back(&mut self, link: usize) {
+    pub fn go_back(&mut self, link: usize) {
         if let Some(passed) = self.passed.get(link) {
             self.link = (passed.right, passed.left);
             self.passed.truncate(link);
@@ -622,6 +637,16 @@ impl Search<'_> {
         if let Some((link, nearer)) = self.among_holes(anchor, front, &end.disk) {
             self.go_back(link);
             end = nearer;
+        }
+        if let Some(few) = front.filter(|f| self.one_walk && f.len() <= FEW_AHEAD) {
+            end = self.nearer(&anchor, front, end, Nearby::All(few));
+            if let Some(found) = self.end_among_few(few, &end) {
+                return Some(found);
+            }
+        } else if self.luck.promises() {
+            let site = end.site;
+            end = self.nearer(&anchor, front, end, Nearby::Some);
+            self.luck.note(end.site != site);
         }
         for _ in 0..MOST_ROUNDS {
             if self.watch.is_over() {
@@ -659,15 +684,8 @@ impl Search<'_> {
                     end = next;
                 }
                 Verdict::Clear(contacts) => {
-                    let (mut right, mut left) = (right, left);
-                    // The last transitions passed may be in this very disk.
-                    while let Some(last) = self.passed.pop_if(|p| {
-                        let n = usize::from(p.n_contacts);
-                        p.contacts[..n].iter().all(|s| contacts.contains(s))
-                    }) {
-                        (right, left) = (last.right, last.left);
-                    }
-                    self.link = (right, left);
+                    self.leave_out_those_in(&contacts);
+                    let (right, left) = self.link;
                     if self.rings.is_some() {
                         let here = self.passed.last().map_or(anchor, |p| Start::at(&p.disk));
                         let gap = Gap::new(right, left, here, front);
@@ -695,6 +713,16 @@ impl Search<'_> {
             }
         }
         None
+    }
+
+    /// Goes back over the last transitions passed that are in a disk with these contacts.
+    pub fn leave_out_those_in(&mut self, contacts: &[Site]) {
+        while let Some(last) = self.passed.pop_if(|p| {
+            let n = usize::from(p.n_contacts);
+            p.contacts[..n].iter().all(|s| contacts.contains(s))
+        }) {
+            self.link = (last.right, last.left);
+        }
     }
 
     /// A disk as it is, or relative to a circle near it where its bound is poor.

@@ -1,3 +1,5 @@
+use std::ops::Range;
+
 use crate::domain::{Domain, Site};
 use crate::geom::{Hidden, Point, Scope, TouchingDisk, U};
 
@@ -28,6 +30,28 @@ impl Front {
     /// First and last edge ahead; they wrap around the walk where the first one is greater.
     pub fn ends(&self) -> (u32, u32) {
         (self.first, self.last)
+    }
+
+    /// Number of edges ahead.
+    #[inline]
+    pub fn len(&self) -> u32 {
+        let (start, end) = self.walk;
+        if self.first <= self.last {
+            self.last - self.first + 1
+        } else {
+            (end - self.first) + (self.last - start + 1)
+        }
+    }
+
+    /// The edges ahead, in one or two runs.
+    #[inline]
+    pub fn runs(&self) -> [Range<u32>; 2] {
+        let (start, end) = self.walk;
+        if self.first <= self.last {
+            [self.first..self.last + 1, 0..0]
+        } else {
+            [self.first..end, start..self.last + 1]
+        }
     }
 
     /// Whether an edge may be met.

@@ -37,6 +37,7 @@ mod gaps;
 mod hand;
 mod holes;
 mod met;
+mod nearby;
 mod numbers;
 mod order;
 mod parallel;

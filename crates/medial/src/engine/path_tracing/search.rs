@@ -15,6 +15,7 @@ use super::finish::Traced;
 use super::front::Front;
 use super::gaps::Gaps;
 use super::met::Met;
+use super::nearby::Luck;
 use super::rings::Rings;
 use super::touch::{Seen, Touch, touch};
 use super::verify::{Verdict, Verify};
@@ -164,7 +165,11 @@ pub(super) struct Search<'a> {
     work: Cell<(u64, u64)>,
     /// No disk inside the polygon has a larger radius.
     pub largest: f64,
+    /// Whether the boundary of the polygon is one walk.
+    pub one_walk: bool,
     pub rings: Option<Arc<Rings>>,
+    /// Whether edges nearby are worth a look before the tree is asked.
+    pub luck: Luck,
     pub banned: Vec<Site>,
     /// Whether every piece of a path is searched for whole rings, and not only counted on in the end
     /// that every ring governs something.
@@ -192,6 +197,9 @@ impl<'a> Search<'a> {
     pub fn over(domain: &'a Domain, index: Index, watch: Watch<'a>) -> Self {
         let Index { tree, sorted, rings } = index;
         let bounds = tree.bounds();
+        let all = tree.items();
+        let walk = domain.walks()[domain.edge(all.start).walk as usize];
+        let one_walk = walk.len as usize == all.len();
         Self {
             domain,
             sorted,
@@ -199,8 +207,10 @@ impl<'a> Search<'a> {
             rounded: false,
             work: Cell::new((0, 0)),
             largest: (bounds.max - bounds.min).norm(),
+            one_walk,
             tree,
             rings,
+            luck: Luck::default(),
             banned: Vec::new(),
             careful: false,
             passed: Vec::new(),

@@ -7,7 +7,7 @@ use super::contacts::{self, Contacts};
 use super::front::scope;
 use super::search::{Gap, Proposal, SLACK, Search, Start};
 use super::touch::{Seen, Touch};
-use crate::domain::{Corner, Edge, Site, Walk};
+use crate::domain::{Corner, Domain, Edge, Site, Walk};
 use crate::geom::predicates::ExactDisk;
 use crate::geom::{Hidden, LEAF, Look, Pinned, Point, Scope, TouchingDisk, U};
 
@@ -238,13 +238,13 @@ impl<'s, 'a> Verify<'s, 'a> {
     fn shrink_by_leaf(&mut self) {
         let mut cutting = self.cutting;
         let cutting = &mut cutting[..std::mem::take(&mut self.n_cutting)];
+        let domain = self.search.domain;
         if cutting.len() > 1 {
             for cut in &mut *cutting {
-                cut.share = self.share(cut);
+                cut.share = share(domain, self.anchor, &self.disk, cut.edge, cut.near);
             }
             cutting.sort_unstable_by(|a, b| a.share.total_cmp(&b.share));
         }
-        let domain = self.search.domain;
         let mut shrunk = false;
         for &mut Cutting { edge, near, .. } in cutting {
             if !shrunk {
@@ -252,30 +252,10 @@ impl<'s, 'a> Verify<'s, 'a> {
                 continue;
             }
             let record = domain.edge(edge);
-            if let Some(near) = clear_cut(&self.disk, record.start, domain.end(edge), record) {
+            if let Some(near) = clear_cut(&self.disk, record.start, || domain.end(edge), record) {
                 self.shrink(edge, near);
             }
         }
-    }
-
-    /// About the share of the way to the disk looked into after which an edge that cuts it is met: that
-    /// of the disk through the edge's nearest point in the pencil of the first disk and this one.
-    fn share(&self, &Cutting { edge, near, .. }: &Cutting) -> f64 {
-        let domain = self.search.domain;
-        let record = domain.edge(edge);
-        let point = match near {
-            ..0 => record.start,
-            0 => {
-                let way = self.disk.centre - (record.start - self.disk.origin);
-                record.start + record.direction * record.direction.dot(way)
-            }
-            1.. => domain.end(edge),
-        };
-        let start = self.anchor;
-        let outside = (point - start.centre).norm2() - start.radius * start.radius;
-        let inside = self.disk.radius * self.disk.radius
-            - (self.disk.centre - (point - self.disk.origin)).norm2();
-        outside / (outside + inside)
     }
 
     /// Decides about an edge by the sharp disk, if there is one, and goes on with an earlier one where
@@ -479,26 +459,59 @@ impl<'s, 'a> Verify<'s, 'a> {
     }
 }
 
+/// About the share of the way to a disk after which an edge that cuts it is met: that of the disk
+/// through the edge's nearest point in the pencil of the disk at the start and this one.
+pub(super) fn share(
+    domain: &Domain,
+    start: &Start,
+    disk: &TouchingDisk,
+    edge: u32,
+    near: i8,
+) -> f64 {
+    let record = domain.edge(edge);
+    let point = match near {
+        ..0 => record.start,
+        0 => {
+            let way = disk.centre - (record.start - disk.origin);
+            record.start + record.direction * record.direction.dot(way)
+        }
+        1.. => domain.end(edge),
+    };
+    let outside = (point - start.centre).norm2() - start.radius * start.radius;
+    let inside =
+        disk.radius * disk.radius - (disk.centre - (point - disk.origin)).norm2();
+    outside / (outside + inside)
+}
+
 /// Whether an edge clearly cuts a disk, by more than what merely touches can be off.
 pub(super) fn cuts_clearly(disk: &TouchingDisk, a: Point, b: Point, edge: &Edge) -> bool {
-    clear_cut(disk, a, b, edge).is_some()
+    clear_cut(disk, a, || b, edge).is_some()
 }
 
 /// Which part of an edge is nearest to the centre, if it clearly cuts the disk: its start if negative,
 /// its end if positive, or the edge itself.
-fn clear_cut(disk: &TouchingDisk, a: Point, b: Point, edge: &Edge) -> Option<i8> {
+#[inline(always)]
+pub(super) fn clear_cut(
+    disk: &TouchingDisk,
+    a: Point,
+    b: impl FnOnce() -> Point,
+    edge: &Edge,
+) -> Option<i8> {
     let q = disk.centre - (a - disk.origin);
-    let x = edge.direction.dot(q);
     let clear = disk.radius * (1.0 - SLACK);
-    let (distance2, near) = if x <= 0.0 {
-        (q.norm2(), -1)
+    let limit = clear * clear;
+    let across = edge.direction.cross(q);
+    if across * across >= limit {
+        return None;
+    }
+    let x = edge.direction.dot(q);
+    if x <= 0.0 {
+        (q.norm2() < limit).then_some(-1)
     } else if x >= edge.length {
-        ((disk.centre - (b - disk.origin)).norm2(), 1)
+        ((disk.centre - (b() - disk.origin)).norm2() < limit).then_some(1)
     } else {
-        let h = edge.direction.cross(q);
-        (h * h, 0)
-    };
-    (distance2 < clear * clear).then_some(near)
+        Some(0)
+    }
 }
 
 impl Look for Verify<'_, '_> {
@@ -549,9 +562,9 @@ impl Look for Verify<'_, '_> {
         if self.hunting {
             let next = record.next;
             let own = |s: Site| !s.is_edge() && (s.index() == edge || s.index() == next);
-            if !own(gap.right)
+            if let Some(near) = clear_cut(&d, record.start, || domain.end(edge), record)
+                && !own(gap.right)
                 && !own(gap.left)
-                && let Some(near) = clear_cut(&d, record.start, domain.end(edge), record)
             {
                 self.cuts(edge, near);
             }

@@ -1,0 +1,314 @@
+//! Looks at the edges of the boundary next to a path, one by one, before the tree is asked.
+//!
+//! # Contract
+//! [`Search::nearer`] only proposes. [`Search::end_among_few`] proves an end where doubles suffice,
+//! or leaves it to [`super::verify`].
+//!
+//! # Method
+//! The third governor of most paths is a few edges away from one of the other two along the boundary.
+//! In a polygon of one walk nothing lies ahead but the boundary from the right governor on to the left
+//! one; where that is a few edges only they are all there is to look at.
+
+use std::ops::Range;
+
+use super::chain::{POOR, Passed};
+use super::contacts::Contacts;
+use super::front::Front;
+use super::search::{Found, Gap, Proposal, SLACK, Search, Start};
+use super::verify::{clear_cut, cuts_clearly, share};
+use crate::domain::{Corner, Domain, Edge, Site};
+use crate::geom::{Point, TouchingDisk, U};
+
+/// Edges ahead up to which the tree is not asked.
+pub(super) const FEW: u32 = 12;
+
+/// Edges after the right governor, and before the left one, that are looked at first otherwise.
+const NEAR: u32 = 4;
+
+/// Elements beyond the end of an edge that are proposed in its place.
+const FOLLOWING: usize = 3;
+
+/// Times that a proposal is replaced by a nearer one.
+const MOST_TIMES: usize = 8;
+
+/// How often a look at what is nearby has paid of late; what it costs is a third of what it saves.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Luck {
+    balance: i32,
+    skipped: u32,
+}
+
+impl Luck {
+    /// The most that is remembered.
+    const LONG: i32 = 32;
+    /// Looks left out before one is taken all the same.
+    const SELDOM: u32 = 16;
+
+    /// Whether to look.
+    #[inline]
+    pub fn promises(&mut self) -> bool {
+        if self.balance >= 0 || self.skipped >= Self::SELDOM {
+            self.skipped = 0;
+            return true;
+        }
+        self.skipped += 1;
+        false
+    }
+
+    /// Takes note of a look.
+    #[inline]
+    pub fn note(&mut self, paid: bool) {
+        let change = if paid { 4 } else { -1 };
+        self.balance = (self.balance + change).clamp(-Self::LONG, Self::LONG);
+    }
+}
+
+/// The edges next to a path.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Nearby {
+    /// All that lie ahead.
+    All(Front),
+    /// The next few on either side.
+    Some,
+}
+
+impl Nearby {
+    /// The edges, in at most two runs.
+    #[inline]
+    fn runs(self, domain: &Domain, (right, left): (Site, Site)) -> [Range<u32>; 2] {
+        match self {
+            Self::All(front) => front.runs(),
+            Self::Some => {
+                let (r, l) = (right.index(), left.index());
+                let walk = |k: u32| domain.walks()[domain.edge(k).walk as usize];
+                let (after, before) = (walk(r), walk(l));
+                let mut after = r + 1..(r + 1 + NEAR).min(after.first + after.len);
+                let mut before = l.saturating_sub(NEAR).max(before.first)..l;
+                // From one governor on to the other one, where they are that near.
+                if r < l {
+                    after.end = after.end.min(l);
+                    before.start = before.start.max(after.end);
+                }
+                [after, before]
+            }
+        }
+    }
+}
+
+impl Search<'_> {
+    /// A proposal that no edge nearby clearly cuts, from one that some may cut. What was passed is
+    /// shortened if it lies on an earlier piece.
+    #[inline]
+    pub fn nearer(
+        &mut self,
+        anchor: &Start,
+        front: Option<Front>,
+        mut end: Proposal,
+        nearby: Nearby,
+    ) -> Proposal {
+        if let Some(beside) = self.beyond_end(anchor, front, &end) {
+            end = beside;
+        }
+        for _ in 0..MOST_TIMES {
+            let Some((edge, near)) = self.first_cut(anchor, &end.disk, nearby) else { break };
+            match self.before(anchor, front, &end, edge, near) {
+                Some((link, nearer)) => {
+                    self.go_back(link);
+                    end = nearer;
+                }
+                None => break,
+            }
+        }
+        end
+    }
+
+    /// Where a proposed edge is met beyond one of its ends, the proposal of what follows there.
+    #[inline]
+    fn beyond_end(
+        &self,
+        anchor: &Start,
+        front: Option<Front>,
+        end: &Proposal,
+    ) -> Option<Proposal> {
+        if !end.site.is_edge() {
+            return None;
+        }
+        let domain = self.domain;
+        let edge = domain.edge(end.site.index());
+        let along = edge.direction.dot(end.disk.centre + (end.disk.origin - edge.start));
+        let slack = SLACK * end.disk.radius;
+        let before = along < -slack;
+        if !before && along <= edge.length + slack {
+            return None;
+        }
+        let here = self.passed.last().map_or(*anchor, |p| Start::at(&p.disk));
+        let gap = Gap::new(self.link.0, self.link.1, here, front);
+        let mut site = end.site;
+        (0..FOLLOWING).find_map(|_| {
+            site = if before { domain.behind(site) } else { domain.ahead(site) };
+            self.propose(&gap, site)
+        })
+    }
+
+    /// The edge that looks as if it were met first of those that clearly cut a disk, and which part of it
+    /// is nearest.
+    #[inline(always)]
+    fn first_cut(
+        &self,
+        anchor: &Start,
+        disk: &TouchingDisk,
+        nearby: Nearby,
+    ) -> Option<(u32, i8)> {
+        let domain = self.domain;
+        let (right, left) = self.link;
+        let own = |s: Site, k: u32, next: u32| {
+            s == Site::edge(k) || !s.is_edge() && (s.index() == k || s.index() == next)
+        };
+        let mut first: Option<(u32, i8)> = None;
+        let mut least = f64::NAN;
+        for run in nearby.runs(domain, self.link) {
+            let numbers = run.clone();
+            let edges = &domain.edges()[run.start as usize..run.end as usize];
+            for (k, edge) in numbers.zip(edges) {
+                let Some(near) = clear_cut(disk, edge.start, || domain.end(k), edge) else {
+                    continue;
+                };
+                if own(right, k, edge.next) || own(left, k, edge.next) {
+                    continue;
+                }
+                let Some((edge, part)) = first else {
+                    first = Some((k, near));
+                    continue;
+                };
+                if least.is_nan() {
+                    least = share(domain, anchor, disk, edge, part);
+                }
+                let share = share(domain, anchor, disk, k, near);
+                if share < least {
+                    least = share;
+                    first = Some((k, near));
+                }
+            }
+        }
+        first
+    }
+
+    /// The proposal of an edge that cuts a proposed disk, if it comes before it, and the piece that it
+    /// lies on.
+    fn before(
+        &self,
+        anchor: &Start,
+        front: Option<Front>,
+        end: &Proposal,
+        edge: u32,
+        near: i8,
+    ) -> Option<(usize, Proposal)> {
+        let domain = self.domain;
+        let record = domain.edge(edge);
+        let (a, b) = (record.start, domain.end(edge));
+        let link = self
+            .passed
+            .iter()
+            .rposition(|p| !cuts_clearly(&p.disk, a, b, record))
+            .map_or(0, |k| k + 1);
+        let last = self.passed.get(link);
+        let (right, left) = last.map_or(self.link, |p: &Passed| (p.right, p.left));
+        let start = match link.checked_sub(1) {
+            None => *anchor,
+            Some(before) => Start::at(&self.passed[before].disk),
+        };
+        let gap = Gap::new(right, left, start, front);
+        let largest = end.disk.radius.max(start.radius) * (1.0 + SLACK);
+        let limit = gap.course(domain).position(last.map_or(&end.disk, |p| &p.disk));
+        let corner = |k: u32| (domain.edge(k).corner != Corner::Convex).then_some(Site::corner(k));
+        let [side, from, to] = [Some(Site::edge(edge)), corner(edge), corner(record.next)];
+        let order = match near {
+            ..0 => [from, side, to],
+            0 => [side, from, to],
+            1.. => [to, side, from],
+        };
+        order.into_iter().flatten().find_map(|site| {
+            let p = self.propose(&gap, site)?;
+            (p.position < limit && p.disk.radius <= largest).then_some((link, p))
+        })
+    }
+
+    /// The end of a path that was proposed, if doubles can tell that nothing of the few edges ahead comes
+    /// before it.
+    #[inline]
+    pub fn end_among_few(&mut self, front: Front, end: &Proposal) -> Option<Found> {
+        let (right, left) = self.link;
+        let triple = [right, end.site, left];
+        let disk = if end.disk.bound.is_finite() {
+            end.disk
+        } else {
+            TouchingDisk::touching(&self.domain.governors(triple))?
+        };
+        if disk.bound > POOR * disk.radius || !self.is_clear_of_few(front, &triple, &disk) {
+            return None;
+        }
+        self.leave_out_those_in(&triple);
+        Some(Found::Disk { disk, triple, contacts: Contacts::from_slice(&triple), fixed: true })
+    }
+
+    /// Whether a certified disk of three governors touches them within their zones, and nothing else
+    /// among the edges ahead is near it; false if doubles cannot tell.
+    #[inline]
+    fn is_clear_of_few(&self, front: Front, triple: &[Site; 3], disk: &TouchingDisk) -> bool {
+        let domain = self.domain;
+        let is_reflex = |k: u32| domain.edge(k).corner == Corner::Reflex;
+        if !triple.iter().all(|s| s.is_edge() || is_reflex(s.index())) {
+            return false;
+        }
+        let [a, b, c] = *triple;
+        let has = |site: Site| a == site || b == site || c == site;
+        let is_clear = |k: u32, edge: &Edge| {
+            let from = seen(disk, edge, edge.start);
+            if edge.direction.cross(from.way).abs() > disk.radius + from.doubt {
+                return true;
+            }
+            let to = || seen(disk, edge, domain.end(k));
+            let (at_start, at_end) = (has(Site::corner(k)), has(Site::corner(edge.next)));
+            if has(Site::edge(k)) {
+                return at_start || at_end || from.along > from.doubt && {
+                    let to = to();
+                    to.along < -to.doubt
+                };
+            }
+            if at_start {
+                return from.along < -from.doubt;
+            }
+            if at_end {
+                let to = to();
+                return to.along > to.doubt;
+            }
+            if from.along <= 0.0 {
+                from.way.norm() > disk.radius + from.doubt
+            } else {
+                let to = to();
+                from.along >= edge.length && to.way.norm() > disk.radius + to.doubt
+            }
+        };
+        front.runs().into_iter().all(|run| {
+            let edges = &domain.edges()[run.start as usize..run.end as usize];
+            run.zip(edges).all(|(k, edge)| is_clear(k, edge))
+        })
+    }
+}
+
+/// Where the centre of a disk lies to a point of an edge.
+struct Seen {
+    way: Point,
+    /// Along the edge.
+    along: f64,
+    /// Bound on the error of lengths.
+    doubt: f64,
+}
+
+#[inline(always)]
+fn seen(disk: &TouchingDisk, edge: &Edge, p: Point) -> Seen {
+    let a = p - disk.origin;
+    let way = disk.centre - a;
+    let size = 16.0 * (way.x.abs() + way.y.abs()) + a.x.abs() + a.y.abs() + 2.0 * disk.radius;
+    Seen { way, along: edge.direction.dot(way), doubt: disk.bound + U * size }
+}
