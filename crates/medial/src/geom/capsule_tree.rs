@@ -450,6 +450,9 @@ impl Shown {
         let [(low, high), ..] = self.runs;
         let shift = 3 * level;
         if self.count == 1 {
+            if low >> shift <= first && first + FAN as u32 <= high >> shift {
+                return 0xff;
+            }
             return part((low >> shift).saturating_sub(first), (high >> shift) - first);
         }
         let mut mask = 0;

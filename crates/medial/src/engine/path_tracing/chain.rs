@@ -22,7 +22,7 @@ use std::cmp::Ordering;
 
 use super::contacts::follows;
 use super::front::Front;
-use super::nearby::{FEW as FEW_AHEAD, Nearby};
+use super::nearby::Nearby;
 use super::rings::{Link, Round};
 use super::search::{Before, Found, Gap, Proposal, SLACK, Search, Start, contact_behind};
 use super::verify::{Verdict, Verify, cuts_clearly};
@@ -577,6 +577,15 @@ impl Search<'_> {
                 self.go_back(link);
                 return Some(hit);
             }
+            let few = self.few_ahead(gap.front);
+            if few.is_some() || self.luck_far.promises() {
+                let nearby = few.map_or(Nearby::Some, Nearby::All);
+                let hit = self.hit(&anchor, gap.front, &disk, nearby);
+                self.luck_far.note(hit.is_some());
+                if hit.is_some() {
+                    return hit;
+                }
+            }
             let start = (&anchor, &self.passed[..]);
             let mut verify = Verify::hunting(self, gap, start, disk);
             verify.run();
@@ -638,7 +647,7 @@ impl Search<'_> {
             self.go_back(link);
             end = nearer;
         }
-        if let Some(few) = front.filter(|f| self.one_walk && f.len() <= FEW_AHEAD) {
+        if let Some(few) = self.few_ahead(front) {
             end = self.nearer(&anchor, front, end, Nearby::All(few));
             if let Some(found) = self.end_among_few(few, &end) {
                 return Some(found);

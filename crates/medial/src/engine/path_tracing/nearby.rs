@@ -20,7 +20,7 @@ use crate::domain::{Corner, Domain, Edge, Site};
 use crate::geom::{Point, TouchingDisk, U};
 
 /// Edges ahead up to which the tree is not asked.
-pub(super) const FEW: u32 = 12;
+const FEW: u32 = 12;
 
 /// Edges after the right governor, and before the left one, that are looked at first otherwise.
 const NEAR: u32 = 4;
@@ -96,6 +96,27 @@ impl Nearby {
 }
 
 impl Search<'_> {
+    /// The edges ahead, if they are few and all that a path can meet.
+    #[inline]
+    pub fn few_ahead(&self, front: Option<Front>) -> Option<Front> {
+        front.filter(|f| self.one_walk && f.len() <= FEW)
+    }
+
+    /// A proposal of what clearly cuts a disk of the path. What was passed is shortened if it lies on an
+    /// earlier piece.
+    pub fn hit(
+        &mut self,
+        anchor: &Start,
+        front: Option<Front>,
+        disk: &TouchingDisk,
+        nearby: Nearby,
+    ) -> Option<Proposal> {
+        let (edge, near) = self.first_cut(anchor, disk, nearby)?;
+        let (link, hit) = self.before(anchor, front, disk, edge, near)?;
+        self.go_back(link);
+        Some(hit)
+    }
+
     /// A proposal that no edge nearby clearly cuts, from one that some may cut. What was passed is
     /// shortened if it lies on an earlier piece.
     #[inline]
@@ -110,14 +131,8 @@ impl Search<'_> {
             end = beside;
         }
         for _ in 0..MOST_TIMES {
-            let Some((edge, near)) = self.first_cut(anchor, &end.disk, nearby) else { break };
-            match self.before(anchor, front, &end, edge, near) {
-                Some((link, nearer)) => {
-                    self.go_back(link);
-                    end = nearer;
-                }
-                None => break,
-            }
+            let Some(nearer) = self.hit(anchor, front, &end.disk, nearby) else { break };
+            end = nearer;
         }
         end
     }
@@ -193,13 +208,13 @@ impl Search<'_> {
         first
     }
 
-    /// The proposal of an edge that cuts a proposed disk, if it comes before it, and the piece that it
+    /// The proposal of an edge that cuts a disk of the path, if it comes before it, and the piece that it
     /// lies on.
     fn before(
         &self,
         anchor: &Start,
         front: Option<Front>,
-        end: &Proposal,
+        disk: &TouchingDisk,
         edge: u32,
         near: i8,
     ) -> Option<(usize, Proposal)> {
@@ -218,8 +233,8 @@ impl Search<'_> {
             Some(before) => Start::at(&self.passed[before].disk),
         };
         let gap = Gap::new(right, left, start, front);
-        let largest = end.disk.radius.max(start.radius) * (1.0 + SLACK);
-        let limit = gap.course(domain).position(last.map_or(&end.disk, |p| &p.disk));
+        let largest = disk.radius.max(start.radius) * (1.0 + SLACK);
+        let limit = gap.course(domain).position(last.map_or(disk, |p| &p.disk));
         let corner = |k: u32| (domain.edge(k).corner != Corner::Convex).then_some(Site::corner(k));
         let [side, from, to] = [Some(Site::edge(edge)), corner(edge), corner(record.next)];
         let order = match near {

@@ -170,6 +170,8 @@ pub(super) struct Search<'a> {
     pub rings: Option<Arc<Rings>>,
     /// Whether edges nearby are worth a look before the tree is asked.
     pub luck: Luck,
+    /// The same where an end is far away or not known.
+    pub luck_far: Luck,
     pub banned: Vec<Site>,
     /// Whether every piece of a path is searched for whole rings, and not only counted on in the end
     /// that every ring governs something.
@@ -211,6 +213,7 @@ impl<'a> Search<'a> {
             tree,
             rings,
             luck: Luck::default(),
+            luck_far: Luck::default(),
             banned: Vec::new(),
             careful: false,
             passed: Vec::new(),
