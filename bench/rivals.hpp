@@ -19,10 +19,13 @@ namespace rivals {
 using Ring = std::vector<std::pair<double, double>>;
 using Rings = std::vector<Ring>;
 
-// How long, in nanoseconds, and how often at most one call repeats its work; and edges that are
-// worked on between two looks at the clock.
+// How long, in nanoseconds, and how often at most one call repeats its work; how often at least,
+// and the nanoseconds after which nothing is repeated; and edges that are worked on between two
+// looks at the clock.
 const int64_t enough = 500000000;
 const size_t repetitions = 101;
+const size_t least = 3;
+const int64_t too_long = 6000000000;
 const size_t chunk = 10000;
 
 // The rings of each feature on standard input.
@@ -82,9 +85,10 @@ void report(Prepare prepare, First first, Second second) {
   const std::vector<Rings> features = read();
   std::vector<int64_t> firsts, seconds;
   size_t found = 0, sum = 0;
-  int64_t growth = 0, spent = 0;
+  int64_t growth = 0, spent = 0, cold = 0;
   for (const Rings& rings : features) sum += edges(rings);
-  while (firsts.empty() || (spent < enough && firsts.size() < repetitions)) {
+  while (firsts.empty() || (spent < enough && firsts.size() < repetitions) ||
+         (spent < too_long && firsts.size() < least)) {
     int64_t one = 0, two = 0;
     found = 0;
     for (size_t k = 0; k < features.size();) {
@@ -104,12 +108,13 @@ void report(Prepare prepare, First first, Second second) {
       one += between - start;
       if (firsts.empty()) growth = std::max(growth, peak() - before);
     }
+    if (firsts.empty()) cold = one + two;
     spent += one + two;
     firsts.push_back(one);
     seconds.push_back(two);
   }
   std::cout << sum << ' ' << found << ' ' << median(firsts) << ' ' << median(seconds) << ' '
-            << growth << '\n';
+            << growth << ' ' << cold << '\n';
 }
 
 }  // namespace rivals

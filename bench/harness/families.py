@@ -16,7 +16,7 @@ BASE = 10_000
 def rows(commands, rivals, options, scratch):
     """Yields the lines of the table as they are ready."""
     shown = [name for name in rivals if name not in ("boost", "delaunator")]
-    heads = ["shape", "edges", "validation", "engine", "medial", "bytes", "paths"]
+    heads = ["shape", "edges", "validation", "engine", "medial", "first", "bytes", "paths"]
     heads += ["boost", "its paths"] if "boost" in rivals else []
     heads += ["delaunator"] if "delaunator" in rivals else []
     heads += ["boost ÷ medial"] if "boost" in rivals else []
@@ -30,7 +30,7 @@ def rows(commands, rivals, options, scratch):
         for size in sorted(options.sizes):
             results = compare(commands, rivals, options, scratch, shape, size, slow)
             ours = results["medial"]
-            cells = [shape, f"{size:,}", "", "", str(ours), "", ""]
+            cells = [shape, f"{size:,}", "", "", str(ours), "", "", ""]
             far = ""
             if isinstance(ours, Result):
                 each = ours.time / ours.edges
@@ -39,7 +39,8 @@ def rows(commands, rivals, options, scratch):
                 stages = [short(time / ours.edges / 1e3) for time in (ours.first, ours.second)]
                 # Small shapes fit into what the process has already.
                 growth = f"{ours.growth / ours.edges:.0f}" if size >= BASE else ""
-                cells = [shape, f"{ours.edges:,}", *stages, microseconds(ours), growth]
+                cold = short(ours.cold / ours.edges / 1e3)
+                cells = [shape, f"{ours.edges:,}", *stages, microseconds(ours), cold, growth]
                 cells.append(f"{ours.found:,}")
             if "boost" in rivals:
                 boost = results["boost"]

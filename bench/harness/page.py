@@ -10,6 +10,7 @@ HEAD = """# Benchmarks
 
 `scripts/bench --data FOLDER --write docs/benchmarks.md` builds the programs of `bench/`, runs them by turns on the same polygons and draws up this page; `--quick` is shorter, `--shapes`, `--sizes`, `--rivals` and `--parts` choose.
 Times are medians of the processor time of one thread, in microseconds an edge; reading the input is not counted.
+Each process repeats its work for half a second, and three times at least unless that takes more than six seconds; the allocator of all of them is told to keep what they free (`GLIBC_TUNABLES`, in `bench/harness/run.py`).
 A busy machine moves them; ratios move less, because all programs take turns.
 """
 
@@ -20,7 +21,7 @@ ROUNDS = """This page: up to {rounds} rounds; a program that has spent {budget} 
 SHAPES = """
 ## Shapes
 
-- *medial*: `Domain::from_polygons`, which validates, and `path_tracing`; *medial* is the sum. `bytes` is the growth of the peak of resident memory over both, an edge. `÷ at 1e4` is time an edge against that at 1e4 edges.
+- *medial*: `Domain::from_polygons`, which validates, and `path_tracing`; *medial* is the sum, and *first* that of the first round of a process, which also fetches all its memory from the system. `bytes` is the growth of the peak of resident memory over both, an edge. `÷ at 1e4` is time an edge against that at 1e4 edges.
 - *boost*, *boostvoronoi*: Boost.Polygon and its Rust port: `construct_voronoi` of the edges, and the walk that drops what lies outside. They give both sides of the boundary, medial the inside; in general position they find as many paths, but for those inside the holes, which count for Boost too.
 - *cgal*: the same with CGAL's segment Delaunay graph, exact predicates, points sorted in space. It gives both sides.
 - *delaunator*, *spade*, *spade-cdt*: no axis at all, but the Delaunay triangulation of the corners, the last one constrained to the edges: what a fast geometric algorithm on as many points costs.

@@ -11,6 +11,13 @@ const ENOUGH: Duration = Duration::from_millis(500);
 /// How often at most.
 const REPETITIONS: usize = 101;
 
+/// How often at least, unless that takes too long: only the first round has to fetch its memory from
+/// the system.
+const LEAST: usize = 3;
+
+/// Time after which nothing is repeated.
+const LONG: Duration = Duration::from_secs(6);
+
 /// Edges that are worked on between two looks at the clock, so that small features do not pay
 /// for the looks.
 const CHUNK: usize = 10_000;
@@ -57,7 +64,11 @@ pub fn report<'a, T, I, A, B>(
     }
     let (mut firsts, mut seconds) = (Vec::new(), Vec::new());
     let (mut found, mut growth, mut spent) = (0, 0, Duration::ZERO);
-    while firsts.is_empty() || (spent < ENOUGH && firsts.len() < REPETITIONS) {
+    let mut cold = Duration::ZERO;
+    while firsts.is_empty()
+        || (spent < ENOUGH && firsts.len() < REPETITIONS)
+        || (spent < LONG && firsts.len() < LEAST)
+    {
         let (mut first, mut second) = (Duration::ZERO, Duration::ZERO);
         found = 0;
         for chunk in &chunks {
@@ -75,13 +86,16 @@ pub fn report<'a, T, I, A, B>(
             found += middle.iter().zip(&last).map(|(a, b)| (work.count)(a, b)).sum::<usize>();
             hint::black_box(last);
         }
+        if firsts.is_empty() {
+            cold = first + second;
+        }
         spent += first + second;
         firsts.push(first);
         seconds.push(second);
     }
     let edges: usize = features.iter().map(edges).sum();
     let (first, second) = (median(&mut firsts).as_nanos(), median(&mut seconds).as_nanos());
-    println!("{edges} {found} {first} {second} {growth}");
+    println!("{edges} {found} {first} {second} {growth} {}", cold.as_nanos());
     Ok(())
 }
 
