@@ -156,8 +156,8 @@ impl TouchingDisk {
     pub fn is_precise(&self) -> bool {
         let position = self.position();
         let size = larger(larger(position.x.abs(), position.y.abs()), self.radius);
-        // Three units in the last place at most; rounding adds half a one.
-        self.bound <= 3.0 * unit_in_the_last_place(size)
+        // Three and a half units in the last place at most; rounding adds half a one.
+        self.bound <= 3.5 * unit_in_the_last_place(size)
     }
 
     /// The disk that touches three elements counterclockwise in the order given, uncertified.
