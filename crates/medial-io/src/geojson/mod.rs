@@ -4,7 +4,7 @@ mod read;
 mod write;
 
 pub use read::{read, read_lines};
-pub use write::{FOOTER, feature_lines, features, header};
+pub use write::{FOOTER, SEPARATOR, feature_lines, features, header};
 
 #[cfg(test)]
 mod tests;
