@@ -1,5 +1,6 @@
 //! GeoJSON [RFC 7946], also with a `crs` member as older writers leave it.
 
+mod quick;
 mod read;
 mod write;
 

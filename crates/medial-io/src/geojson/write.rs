@@ -1,16 +1,19 @@
-use crate::json::{compact, quoted};
+use crate::json::{compact, push_quoted};
 use crate::number::decimal;
 use crate::path::{PathRecord, records};
 use crate::{Drawing, Feature, Json};
 use medial::axis::MedialAxis;
 use medial::geom::Point;
-use std::fmt::Write as _;
+use std::borrow::Cow;
 
 /// The end of a collection.
 pub const FOOTER: &str = "\n]}\n";
 
 /// About as many bytes as a path takes, without the properties of its source.
 const PATH_BYTES: usize = 440;
+
+/// About as many bytes as the properties of a source take.
+const COMMON_BYTES: usize = 256;
 
 /// About as many bytes as the radius and the position of a keypoint take.
 const PLACE_BYTES: usize = 64;
@@ -51,7 +54,7 @@ fn write(
     for record in records(axis) {
         out.extend_from_slice(before);
         out.extend_from_slice(b"{\"type\":\"Feature\",\"properties\":{");
-        out.extend_from_slice(common.as_bytes());
+        out.extend_from_slice(&common);
         path_properties(out, &record, &places);
         out.extend_from_slice(b"},\"geometry\":{\"type\":\"LineString\",\"coordinates\":[");
         out.extend_from_slice(places.position(record.path.from));
@@ -76,13 +79,15 @@ fn keypoints(
     out: &mut Vec<u8>,
     axis: &MedialAxis,
     places: &Places,
-    common: &str,
+    common: &[u8],
     [before, after]: [&[u8]; 2],
 ) {
     for ((k, keypoint), degree) in (0..).zip(axis.keypoints()).zip(axis.degrees()) {
         out.extend_from_slice(before);
+        out.extend_from_slice(b"{\"type\":\"Feature\",\"properties\":{");
+        out.extend_from_slice(common);
         let properties = format!(
-            "{{\"type\":\"Feature\",\"properties\":{{{common}\"keypoint\":{k},\"kind\":\"{}\",\
+            "\"keypoint\":{k},\"kind\":\"{}\",\
              \"radius\":{:?},\"degree\":{degree},\"governors\":{:?}}},\
              \"geometry\":{{\"type\":\"Point\",\"coordinates\":",
             keypoint.kind,
@@ -169,25 +174,33 @@ impl Places {
 
 /// The properties every feature of one axis shares: those of the source, renamed where the name
 /// is ours, then `feature`, `source_id` and `engine`. Ends with a comma.
-fn common_properties(source: &Feature, axis: &MedialAxis, drawing: Drawing) -> String {
-    let mut out = String::new();
-    let names: Vec<&str> = source.properties.iter().map(|(name, _)| name.as_str()).collect();
-    for (k, (name, value)) in source.properties.iter().enumerate() {
-        let mut name = name.clone();
+fn common_properties(source: &Feature, axis: &MedialAxis, drawing: Drawing) -> Vec<u8> {
+    let mut out = Vec::with_capacity(COMMON_BYTES);
+    let properties = &source.properties;
+    let is_name = |name: &str, n: usize| properties[..n].iter().any(|(other, _)| other == name);
+    for (k, (name, value)) in properties.iter().enumerate() {
+        let mut name = Cow::Borrowed(name.as_str());
         // Prefix until the name is free, so that no property hides another.
-        while is_ours(&name, drawing) || names[..k].contains(&name.as_str()) || {
-            name != names[k] && names.contains(&name.as_str())
+        while is_ours(&name, drawing) || is_name(&name, k) || {
+            name != properties[k].0 && is_name(&name, properties.len())
         } {
-            name.insert_str(0, "source_");
+            name.to_mut().insert_str(0, "source_");
         }
-        let _ = write!(out, "{}:{},", quoted(&name), compact(value));
+        push_quoted(&mut out, &name);
+        out.push(b':');
+        out.extend_from_slice(compact(value).as_bytes());
+        out.push(b',');
     }
-    let _ = write!(out, "\"feature\":{},\"source_id\":", source.index);
+    out.extend_from_slice(b"\"feature\":");
+    out.extend_from_slice(itoa::Buffer::new().format(source.index).as_bytes());
+    out.extend_from_slice(b",\"source_id\":");
     match &source.id {
-        Some(id) => out.push_str(&compact(id)),
-        None => out.push_str("null"),
+        Some(id) => out.extend_from_slice(compact(id).as_bytes()),
+        None => out.extend_from_slice(b"null"),
     }
-    let _ = write!(out, ",\"engine\":\"{}\",", axis.engine);
+    out.extend_from_slice(b",\"engine\":\"");
+    out.extend_from_slice(axis.engine.name().as_bytes());
+    out.extend_from_slice(b"\",");
     out
 }
 
