@@ -132,10 +132,7 @@ impl<'a> Cursor<'a> {
     }
 
     /// Calls `member` with the name of each member of an object, at its value.
-    fn members(
-        &mut self,
-        mut member: impl FnMut(&mut Self, &'a str) -> Option<()>,
-    ) -> Option<()> {
+    fn members(&mut self, mut member: impl FnMut(&mut Self, &'a str) -> Option<()>) -> Option<()> {
         self.take(b'{')?;
         loop {
             let name = self.plain_string()?;
@@ -281,9 +278,7 @@ impl<'a> Cursor<'a> {
     /// Passes what stands in a string up to its end, an escape or a control character.
     #[inline]
     fn unescaped(&mut self) {
-        while self.peek().is_some_and(|byte| byte >= b' ' && byte != b'"' && byte != b'\\') {
-            self.at += 1;
-        }
+        self.at = unescaped_end(self.text.as_bytes(), self.at);
     }
 
     /// Any value, as it is written.
@@ -296,6 +291,7 @@ impl<'a> Cursor<'a> {
             self.space();
             let byte = self.peek()?;
             match byte {
+                b'[' if let Some(end) = pair_end(self.text.as_bytes(), self.at) => self.at = end,
                 b'[' | b'{' => {
                     self.at += 1;
                     let object = byte == b'{';
@@ -349,16 +345,8 @@ impl<'a> Cursor<'a> {
 
     #[inline]
     fn number(&mut self) -> Option<()> {
-        self.at += usize::from(self.peek() == Some(b'-'));
-        match self.peek()? {
-            b'0' => self.at += 1,
-            _ => self.digits(&mut 0)?,
-        }
-        if self.peek() == Some(b'.') {
-            self.at += 1;
-            self.digits(&mut 0)?;
-        }
-        self.exponent().map(drop)
+        self.at = number_end(self.text.as_bytes(), self.at)?;
+        Some(())
     }
 
     #[inline]
@@ -393,6 +381,83 @@ impl<'a> Cursor<'a> {
     }
 }
 
+/// Where the position `[x, y]` at this byte ends, if it is one.
+#[inline]
+fn pair_end(bytes: &[u8], at: usize) -> Option<usize> {
+    let comma = number_end(bytes, at + 1)?;
+    let tail = bytes.get(comma..)?;
+    let second = match tail {
+        [b',', b' ', ..] => comma + 2,
+        [b',', ..] => comma + 1,
+        _ => return None,
+    };
+    let end = number_end(bytes, second)?;
+    (bytes.get(end) == Some(&b']')).then_some(end + 1)
+}
+
+/// Where the number at this byte ends, if it is one.
+#[inline]
+fn number_end(bytes: &[u8], at: usize) -> Option<usize> {
+    let first = at + usize::from(bytes.get(at) == Some(&b'-'));
+    let mut end = digits_end(bytes, first);
+    // No number begins with a zero that means nothing.
+    (first < end && (end == first + 1 || bytes[first] != b'0')).then_some(())?;
+    if bytes.get(end) == Some(&b'.') {
+        let places = end + 1;
+        end = digits_end(bytes, places);
+        (places < end).then_some(())?;
+    }
+    if let Some(b'e' | b'E') = bytes.get(end) {
+        let power = end + 1 + usize::from(matches!(bytes.get(end + 1), Some(b'+' | b'-')));
+        end = digits_end(bytes, power);
+        (power < end).then_some(())?;
+    }
+    Some(end)
+}
+
+/// A word with 1 in each byte.
+const ONES: u64 = u64::MAX / 255;
+
+/// Where an end of a string, an escape or a control character comes first.
+#[inline]
+fn unescaped_end(bytes: &[u8], mut at: usize) -> usize {
+    // Eight at once: the highest bit of a byte tells that it is one, at least of the first.
+    while let Some(eight) = bytes.get(at..).and_then(|rest| rest.first_chunk()) {
+        let word = u64::from_le_bytes(*eight);
+        let below = |word: u64, limit: u8| word.wrapping_sub(ONES * u64::from(limit)) & !word;
+        let is = |byte: u8| below(word ^ (ONES * u64::from(byte)), 1);
+        let special = below(word, b' ') | is(b'"') | is(b'\\');
+        let n = (special & (ONES << 7)).trailing_zeros() / 8;
+        at += n as usize;
+        if n < 8 {
+            return at;
+        }
+    }
+    while bytes.get(at).is_some_and(|&byte| byte >= b' ' && byte != b'"' && byte != b'\\') {
+        at += 1;
+    }
+    at
+}
+
+/// Where the digits at this byte end.
+#[inline]
+fn digits_end(bytes: &[u8], mut at: usize) -> usize {
+    // Eight at once: the highest bit of a byte tells that it is no digit, at least of the first.
+    while let Some(eight) = bytes.get(at..).and_then(|rest| rest.first_chunk()) {
+        let digits = u64::from_le_bytes(*eight) ^ (ONES * u64::from(b'0'));
+        let others = digits | digits.wrapping_add(ONES * 118);
+        let n = (others & (ONES << 7)).trailing_zeros() / 8;
+        at += n as usize;
+        if n < 8 {
+            return at;
+        }
+    }
+    while bytes.get(at).is_some_and(u8::is_ascii_digit) {
+        at += 1;
+    }
+    at
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -408,9 +473,40 @@ mod tests {
     #[test]
     fn values_are_those_of_the_parser() {
         let pieces = [
-            "{", "}", "[", "]", ",", ":", " ", "\n", "\"a\"", "\"\\\"é\\u00e9\"", "\"\\x\"", "\"",
-            "\"\\u12g4\"", "\"\t\"", "0", "-", "01", "1.", "-2.5e+3", "1e", ".5", "1E5", "true",
-            "nul", "null", "false", "\"b\":", "[1,2]", "{\"c\":[]}", "NaN", "\u{a0}",
+            "{",
+            "}",
+            "[",
+            "]",
+            ",",
+            ":",
+            " ",
+            "\n",
+            "\"a\"",
+            "\"\\\"é\\u00e9\"",
+            "\"\\x\"",
+            "\"",
+            "\"\\u12g4\"",
+            "\"\t\"",
+            "0",
+            "-",
+            "01",
+            "1.",
+            "-2.5e+3",
+            "1e",
+            ".5",
+            "1E5",
+            "true",
+            "nul",
+            "null",
+            "false",
+            "\"b\":",
+            "[1,2]",
+            "[1.5, -12345678901.25]",
+            "[01, 2]",
+            "[1,2,3]",
+            "{\"c\":[]}",
+            "NaN",
+            "\u{a0}",
         ];
         let mut state = 1_u64;
         let mut taken = 0;
@@ -448,9 +544,24 @@ mod tests {
             same(&format!("{sign}{whole}.{places}e{}", (state >> 32) as i8));
         }
         for text in [
-            "0", "-0", "-0.0", "0.5", "9007199254740992", "9007199254740993", "1e308", "1e309",
-            "123456789012345678901234567890", "0.00000000000000000000001", "4.35", "5e-324",
-            "5453786.599999999627471", "00.0", "-", "1.", "1e", "18446744073709551616.0",
+            "0",
+            "-0",
+            "-0.0",
+            "0.5",
+            "9007199254740992",
+            "9007199254740993",
+            "1e308",
+            "1e309",
+            "123456789012345678901234567890",
+            "0.00000000000000000000001",
+            "4.35",
+            "5e-324",
+            "5453786.599999999627471",
+            "00.0",
+            "-",
+            "1.",
+            "1e",
+            "18446744073709551616.0",
         ] {
             same(text);
         }

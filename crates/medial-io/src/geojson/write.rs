@@ -12,7 +12,7 @@ pub const FOOTER: &str = "\n]}\n";
 /// About as many bytes as a path takes, without the properties of its source.
 const PATH_BYTES: usize = 440;
 
-/// About as many bytes as the properties of a source take.
+/// About as many bytes as the beginning of a feature takes.
 const COMMON_BYTES: usize = 256;
 
 /// About as many bytes as the radius and the position of a keypoint take.
@@ -48,12 +48,10 @@ fn write(
     [before, after]: [&[u8]; 2],
 ) {
     let tolerance = drawing.tolerance(axis);
-    let common = common_properties(source, axis, drawing);
+    let common = beginning(source, axis, drawing, before);
     let places = Places::new(axis, drawing);
     out.reserve(axis.paths().len() * (common.len() + PATH_BYTES));
     for record in records(axis) {
-        out.extend_from_slice(before);
-        out.extend_from_slice(b"{\"type\":\"Feature\",\"properties\":{");
         out.extend_from_slice(&common);
         path_properties(out, &record, &places);
         out.extend_from_slice(b"},\"geometry\":{\"type\":\"LineString\",\"coordinates\":[");
@@ -71,20 +69,12 @@ fn write(
         out.extend_from_slice(after);
     }
     if drawing.keypoints {
-        keypoints(out, axis, &places, &common, [before, after]);
+        keypoints(out, axis, &places, &common, after);
     }
 }
 
-fn keypoints(
-    out: &mut Vec<u8>,
-    axis: &MedialAxis,
-    places: &Places,
-    common: &[u8],
-    [before, after]: [&[u8]; 2],
-) {
+fn keypoints(out: &mut Vec<u8>, axis: &MedialAxis, places: &Places, common: &[u8], after: &[u8]) {
     for ((k, keypoint), degree) in (0..).zip(axis.keypoints()).zip(axis.degrees()) {
-        out.extend_from_slice(before);
-        out.extend_from_slice(b"{\"type\":\"Feature\",\"properties\":{");
         out.extend_from_slice(common);
         let properties = format!(
             "\"keypoint\":{k},\"kind\":\"{}\",\
@@ -101,7 +91,7 @@ fn keypoints(
     }
 }
 
-/// The properties of a path behind those it shares.
+/// The properties of a path behind its beginning.
 fn path_properties(out: &mut Vec<u8>, record: &PathRecord, places: &Places) {
     let PathRecord { path, curve, ends: [from, to] } = record;
     let radii = [places.radius(path.from), places.radius(path.to)];
@@ -172,10 +162,12 @@ impl Places {
     }
 }
 
-/// The properties every feature of one axis shares: those of the source, renamed where the name
-/// is ours, then `feature`, `source_id` and `engine`. Ends with a comma.
-fn common_properties(source: &Feature, axis: &MedialAxis, drawing: Drawing) -> Vec<u8> {
+/// How every feature of one axis begins, behind `before`: with the properties of the source,
+/// renamed where the name is ours, then `feature`, `source_id` and `engine`. Ends with a comma.
+fn beginning(source: &Feature, axis: &MedialAxis, drawing: Drawing, before: &[u8]) -> Vec<u8> {
     let mut out = Vec::with_capacity(COMMON_BYTES);
+    out.extend_from_slice(before);
+    out.extend_from_slice(b"{\"type\":\"Feature\",\"properties\":{");
     let properties = &source.properties;
     let is_name = |name: &str, n: usize| properties[..n].iter().any(|(other, _)| other == name);
     for (k, (name, value)) in properties.iter().enumerate() {
