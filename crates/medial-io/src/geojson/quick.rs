@@ -526,7 +526,7 @@ mod tests {
     #[test]
     fn coordinates_are_those_of_the_parser() {
         let mut state = 1_u64;
-        let mut same = |text: &str| {
+        let same = |text: &str| {
             let read = Cursor { text, at: 0 }.coordinate();
             let parsed = serde_json::from_str::<f64>(text).ok();
             assert_eq!(read.map(f64::to_bits), parsed.map(f64::to_bits), "{text}");
