@@ -149,7 +149,7 @@ pub(crate) fn points(rings: Vec<Ring>) -> Vec<Vec<Point>> {
 
 /// A JSON value without white space between its tokens, so that it fits on one line.
 pub(crate) fn compact(value: &RawValue) -> Cow<'_, str> {
-    if !value.get().contains(|c: char| c.is_ascii_whitespace()) {
+    if !value.get().bytes().any(|byte| byte.is_ascii_whitespace()) {
         return value.get().into();
     }
     let (mut in_string, mut escaped) = (false, false);
@@ -166,8 +166,8 @@ pub(crate) fn compact(value: &RawValue) -> Cow<'_, str> {
     value.get().chars().filter(keep).collect()
 }
 
-/// A text as a JSON string.
-pub(crate) fn quoted(text: &str) -> String {
-    // Text always has a JSON form.
-    serde_json::to_string(text).unwrap_or_default()
+/// Appends a text as a JSON string.
+pub(crate) fn push_quoted(out: &mut Vec<u8>, text: &str) {
+    // Text always has a JSON form, and memory takes all that is written.
+    let _ = serde_json::to_writer(out, text);
 }

@@ -1,21 +1,27 @@
-use std::fmt::Write as _;
-
-/// Appends the shortest decimal that reads back to this double, a whole number with `.0`, as in
-/// GeoJSON: `4.0`, `0.1`, `1e300`. It is what `{:?}` writes, sooner.
-pub(crate) fn push_decimal(out: &mut String, value: f64) {
+/// Hands on, in one piece or several, the shortest decimal that reads back to this double, a whole
+/// number with `.0`, as in GeoJSON: `4.0`, `0.1`, `1e300`. It is what `{:?}` writes, sooner.
+#[inline]
+pub(crate) fn decimal(value: f64, mut put: impl FnMut(&str)) {
+    let whole = value as u32;
+    // Neither a fraction nor too large, and no negative zero.
+    if f64::from(whole).to_bits() == value.to_bits() {
+        put(itoa::Buffer::new().format(whole));
+        put(".0");
+        return;
+    }
     let mut buffer = zmij::Buffer::new();
     let text = buffer.format(value);
     let size = value.abs();
     if size >= 1e16 || text.len() > 16 && may_be_halfway(value) {
-        let _ = write!(out, "{value:?}");
+        put(&format!("{value:?}"));
     } else if size < 1e-4 && text.contains("0.0000") {
         // `{:?}` has an exponent from here on, the algorithm only below 1e-5.
         let (sign, digits) = text.split_once("0.0000").unwrap_or(("", text));
         let (first, more) = digits.split_at(1);
         let point = if more.is_empty() { "" } else { "." };
-        out.extend([sign, first, point, more, "e-5"]);
+        [sign, first, point, more, "e-5"].into_iter().for_each(put);
     } else {
-        out.push_str(text);
+        put(text);
     }
 }
 
@@ -34,7 +40,7 @@ fn may_be_halfway(value: f64) -> bool {
 /// Appends the shortest decimal that reads back to this double, as in WKT and CSV: `4`, `0.1`,
 /// `1e300`.
 pub(crate) fn push_shortest(out: &mut String, value: f64) {
-    push_decimal(out, value);
+    decimal(value, |text| out.push_str(text));
     if out.ends_with(".0") {
         out.truncate(out.len() - 2);
     }
@@ -65,9 +71,9 @@ mod tests {
     #[test]
     fn decimals_are_those_of_the_standard_library() {
         let same = |value: f64| {
-            let mut decimal = String::new();
-            push_decimal(&mut decimal, value);
-            assert_eq!(decimal, format!("{value:?}"));
+            let mut written = String::new();
+            decimal(value, |text| written.push_str(text));
+            assert_eq!(written, format!("{value:?}"));
         };
         for exponent in -324..=308 {
             let power: f64 = format!("1e{exponent}").parse().unwrap();
@@ -89,6 +95,9 @@ mod tests {
             // Few binary digits at any place: decimals of 18 digits are among them.
             let (digits, places) = (bits >> 7 & 63, bits >> 1 & 63);
             same((bits >> digits) as f64 / (1_u64 << places) as f64);
+        }
+        for whole in [1, 9, 10, u32::MAX - 1, u32::MAX] {
+            [whole as f64, whole as f64 + 1.0, -(whole as f64)].into_iter().for_each(same);
         }
         // 2^-25 and 2^51 + 1/4 lie half-way between decimals of 17 digits.
         [2.0_f64.powi(-25), 2.0_f64.powi(51) + 0.25].into_iter().for_each(same);

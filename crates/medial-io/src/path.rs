@@ -1,4 +1,4 @@
-use medial::axis::{Curve, Keypoint, MedialAxis, Path};
+use medial::axis::{Curve, CurveKind, Keypoint, MedialAxis, Path};
 use medial::geom::Point;
 
 /// How axes become lines.
@@ -31,6 +31,11 @@ impl Drawing {
     #[must_use]
     pub fn tolerance(&self, axis: &MedialAxis) -> f64 {
         self.tolerance.unwrap_or_else(|| default_tolerance(axis))
+    }
+
+    /// Whether a curve is drawn by its two ends whatever the tolerance.
+    pub(crate) fn is_straight(&self, curve: &Curve) -> bool {
+        curve.kind() == CurveKind::Line && !self.radius_as_z
     }
 
     /// The points of a curve with their radii.

@@ -15,9 +15,6 @@ pub struct Sink {
     begun: bool,
 }
 
-/// Stands before the features of every axis in GeoJSON; the sink takes off the first.
-const SEPARATOR: &[u8] = b",\n";
-
 /// Appends the axis of a feature in a format, or gives what to draw of it.
 pub fn encode(
     format: Format,
@@ -29,13 +26,13 @@ pub fn encode(
 ) -> Option<Scene> {
     let text = match format {
         Format::GeoJson => {
-            let text = geojson::features(feature, &axis, drawing);
-            if !text.is_empty() {
-                bytes.extend_from_slice(SEPARATOR);
-            }
-            text
+            geojson::features(bytes, feature, &axis, drawing);
+            return None;
         }
-        Format::GeoJsonLines => geojson::feature_lines(feature, &axis, drawing),
+        Format::GeoJsonLines => {
+            geojson::feature_lines(bytes, feature, &axis, drawing);
+            return None;
+        }
         Format::Wkt => wkt::write(&axis, drawing),
         Format::Csv => csv::rows(feature, &axis, drawing),
         Format::Svg | Format::Png => {
@@ -75,7 +72,7 @@ impl Sink {
             return Ok(());
         }
         if !self.begun && self.format == Format::GeoJson {
-            bytes = bytes.strip_prefix(SEPARATOR).unwrap_or(bytes);
+            bytes = bytes.strip_prefix(geojson::SEPARATOR).unwrap_or(bytes);
         }
         self.begin()?;
         self.output.write(bytes)

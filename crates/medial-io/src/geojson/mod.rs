@@ -1,10 +1,11 @@
 //! GeoJSON [RFC 7946], also with a `crs` member as older writers leave it.
 
+mod quick;
 mod read;
 mod write;
 
 pub use read::{read, read_lines};
-pub use write::{FOOTER, feature_lines, features, header};
+pub use write::{FOOTER, SEPARATOR, feature_lines, features, header};
 
 #[cfg(test)]
 mod tests;

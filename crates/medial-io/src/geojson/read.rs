@@ -1,3 +1,4 @@
+use super::quick::{self, Collection, Polygonal};
 use crate::json::{Members, Ring, parse, points};
 use crate::text::{lines, offset, syntax_at};
 use crate::{Error, Feature, FeatureError, Layer};
@@ -39,6 +40,11 @@ pub fn read(text: &str) -> Result<Layer<'_>, Error> {
     if text.trim().is_empty() {
         return Err(Error::Empty);
     }
+    if let Some(Collection { features, crs }) = quick::collection(text) {
+        let crs = crs.map(|crs| parse(text, crs)).transpose()?;
+        let len = Some(features.len());
+        return Ok(Layer { crs, len, ..Layer::of_slices(text, features.into_iter(), feature) });
+    }
     let object = parse_object(text, text)?;
     let slices = if object.kind == "FeatureCollection" {
         let why = "the FeatureCollection has no `features`";
@@ -68,6 +74,17 @@ fn feature(text: &str, part: &str, index: usize) -> Result<Feature, FeatureError
 }
 
 fn read_feature(text: &str, part: &str, feature: &mut Feature) -> Result<(), Error> {
+    if let Some(Polygonal { id, properties, multi, polygons }) = quick::polygonal(part) {
+        feature.id = id.map(|id| parse(text, id)).transpose()?;
+        if let Some(properties) = properties {
+            feature.properties = parse::<Members>(text, properties)?.0;
+        }
+        let described = if multi { "a MultiPolygon" } else { "a Polygon" };
+        feature.geometry = described.to_owned();
+        feature.polygonal = true;
+        feature.polygons = polygons;
+        return Ok(());
+    }
     let object = parse_object(text, part)?;
     if object.kind != "Feature" {
         return read_geometry(text, part, &object, feature, 0);

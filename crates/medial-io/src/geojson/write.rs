@@ -1,16 +1,22 @@
-use crate::json::{compact, quoted};
-use crate::number::push_decimal;
+use crate::json::{compact, push_quoted};
+use crate::number::decimal;
 use crate::path::{PathRecord, records};
 use crate::{Drawing, Feature, Json};
-use medial::axis::{MedialAxis, Path};
+use medial::axis::MedialAxis;
 use medial::geom::Point;
-use std::fmt::Write as _;
+use std::borrow::Cow;
 
 /// The end of a collection.
 pub const FOOTER: &str = "\n]}\n";
 
 /// About as many bytes as a path takes, without the properties of its source.
 const PATH_BYTES: usize = 440;
+
+/// About as many bytes as the beginning of a feature takes.
+const COMMON_BYTES: usize = 256;
+
+/// About as many bytes as the radius and the position of a keypoint take.
+const PLACE_BYTES: usize = 64;
 
 /// The beginning of a collection, up to its first feature.
 #[must_use]
@@ -19,106 +25,174 @@ pub fn header(crs: Option<&Json>) -> String {
     format!("{{\"type\":\"FeatureCollection\",\n{crs}\"features\":[\n")
 }
 
-/// The features of one axis, joined by commas and line ends: paths, then keypoints if asked for.
-#[must_use]
-pub fn features(source: &Feature, axis: &MedialAxis, drawing: Drawing) -> String {
-    joined(source, axis, drawing, ",\n")
+/// Stands before every feature of a collection but the first.
+pub const SEPARATOR: &[u8] = b",\n";
+
+/// Appends the features of one axis, each behind a [`SEPARATOR`]: paths, then keypoints if asked
+/// for.
+pub fn features(out: &mut Vec<u8>, source: &Feature, axis: &MedialAxis, drawing: Drawing) {
+    write(out, source, axis, drawing, [SEPARATOR, b""]);
 }
 
-/// The same features, each on a line of its own.
-#[must_use]
-pub fn feature_lines(source: &Feature, axis: &MedialAxis, drawing: Drawing) -> String {
-    let mut out = joined(source, axis, drawing, "\n");
-    if !out.is_empty() {
-        out.push('\n');
-    }
-    out
+/// Appends the same features, each on a line of its own.
+pub fn feature_lines(out: &mut Vec<u8>, source: &Feature, axis: &MedialAxis, drawing: Drawing) {
+    write(out, source, axis, drawing, [b"", b"\n"]);
 }
 
-fn joined(source: &Feature, axis: &MedialAxis, drawing: Drawing, separator: &str) -> String {
+/// Writes each feature between two texts.
+fn write(
+    out: &mut Vec<u8>,
+    source: &Feature,
+    axis: &MedialAxis,
+    drawing: Drawing,
+    [before, after]: [&[u8]; 2],
+) {
     let tolerance = drawing.tolerance(axis);
-    let common = common_properties(source, axis, drawing);
-    let mut out = String::with_capacity(axis.paths().len() * (common.len() + PATH_BYTES));
+    let common = beginning(source, axis, drawing, before);
+    let places = Places::new(axis, drawing);
+    out.reserve(axis.paths().len() * (common.len() + PATH_BYTES));
     for record in records(axis) {
-        separate(&mut out, separator);
-        out.push_str("{\"type\":\"Feature\",\"properties\":{");
-        path_properties(&mut out, &record, &common);
-        out.push_str("},\"geometry\":{\"type\":\"LineString\",\"coordinates\":[");
-        for (k, (p, radius)) in drawing.points(&record.curve, tolerance).into_iter().enumerate() {
-            if k > 0 {
-                out.push(',');
+        out.extend_from_slice(&common);
+        path_properties(out, &record, &places);
+        out.extend_from_slice(b"},\"geometry\":{\"type\":\"LineString\",\"coordinates\":[");
+        out.extend_from_slice(places.position(record.path.from));
+        out.push(b',');
+        if !drawing.is_straight(&record.curve) {
+            let points = drawing.points(&record.curve, tolerance);
+            for &(p, radius) in &points[1..points.len() - 1] {
+                position(out, p, drawing.radius_as_z.then_some(radius));
+                out.push(b',');
             }
-            position(&mut out, p, drawing.radius_as_z.then_some(radius));
         }
-        out.push_str("]}}");
+        out.extend_from_slice(places.position(record.path.to));
+        out.extend_from_slice(b"]}}");
+        out.extend_from_slice(after);
     }
     if drawing.keypoints {
-        keypoints(&mut out, axis, drawing, &common, separator);
+        keypoints(out, axis, &places, &common, after);
     }
-    out
 }
 
-fn keypoints(out: &mut String, axis: &MedialAxis, drawing: Drawing, common: &str, separator: &str) {
-    for ((k, keypoint), degree) in axis.keypoints().iter().enumerate().zip(axis.degrees()) {
-        separate(out, separator);
-        let _ = write!(
-            out,
-            "{{\"type\":\"Feature\",\"properties\":{{{common}\"keypoint\":{k},\"kind\":\"{}\",\
+fn keypoints(out: &mut Vec<u8>, axis: &MedialAxis, places: &Places, common: &[u8], after: &[u8]) {
+    for ((k, keypoint), degree) in (0..).zip(axis.keypoints()).zip(axis.degrees()) {
+        out.extend_from_slice(common);
+        let properties = format!(
+            "\"keypoint\":{k},\"kind\":\"{}\",\
              \"radius\":{:?},\"degree\":{degree},\"governors\":{:?}}},\
              \"geometry\":{{\"type\":\"Point\",\"coordinates\":",
             keypoint.kind,
             keypoint.radius,
-            axis.governors(k as u32),
+            axis.governors(k),
         );
-        position(out, keypoint.position, drawing.radius_as_z.then_some(keypoint.radius));
-        out.push_str("}}");
+        out.extend_from_slice(properties.as_bytes());
+        out.extend_from_slice(places.position(k));
+        out.extend_from_slice(b"}}");
+        out.extend_from_slice(after);
     }
 }
 
-fn path_properties(out: &mut String, record: &PathRecord, common: &str) {
-    let curve = &record.curve;
-    out.push_str(common);
-    out.push_str("\"curve\":\"");
-    out.push_str(curve.kind().name());
-    out.push_str("\",");
-    let mut number = |name: &str, value: f64| {
-        out.push_str(name);
-        push_decimal(out, value);
-    };
-    number("\"length\":", curve.length());
-    number(",\"radius_min\":", curve.radius_min());
-    number(",\"radius_max\":", curve.radius_max());
-    number(",\"radius_start\":", curve.radius_from());
-    number(",\"radius_end\":", curve.radius_to());
-    for (name, end) in [(",\"kind_start\":\"", 0), ("\",\"kind_end\":\"", 1)] {
-        out.push_str(name);
-        out.push_str(record.ends[end].kind.name());
-    }
-    let Path { left, right, .. } = record.path;
-    let _ = write!(out, "\",\"governor_left\":{left},\"governor_right\":{right}");
-}
-
-/// The properties every feature of one axis shares: those of the source, renamed where the name
-/// is ours, then `feature`, `source_id` and `engine`. Ends with a comma.
-fn common_properties(source: &Feature, axis: &MedialAxis, drawing: Drawing) -> String {
-    let mut out = String::new();
-    let names: Vec<&str> = source.properties.iter().map(|(name, _)| name.as_str()).collect();
-    for (k, (name, value)) in source.properties.iter().enumerate() {
-        let mut name = name.clone();
-        // Prefix until the name is free, so that no property hides another.
-        while is_ours(&name, drawing) || names[..k].contains(&name.as_str()) || {
-            name != names[k] && names.contains(&name.as_str())
-        } {
-            name.insert_str(0, "source_");
+/// The properties of a path behind its beginning.
+fn path_properties(out: &mut Vec<u8>, record: &PathRecord, places: &Places) {
+    let PathRecord { path, curve, ends: [from, to] } = record;
+    let radii = [places.radius(path.from), places.radius(path.to)];
+    out.extend_from_slice(b"\"curve\":\"");
+    out.extend_from_slice(curve.kind().name().as_bytes());
+    out.extend_from_slice(b"\",\"length\":");
+    number(out, curve.length());
+    let extreme = |out: &mut Vec<u8>, radius: f64| {
+        // Mostly that of an end.
+        match [from, to].iter().position(|k| k.radius.to_bits() == radius.to_bits()) {
+            Some(end) => out.extend_from_slice(radii[end]),
+            None => number(out, radius),
         }
-        let _ = write!(out, "{}:{},", quoted(&name), compact(value));
+    };
+    out.extend_from_slice(b",\"radius_min\":");
+    extreme(out, curve.radius_min());
+    out.extend_from_slice(b",\"radius_max\":");
+    extreme(out, curve.radius_max());
+    out.extend_from_slice(b",\"radius_start\":");
+    out.extend_from_slice(radii[0]);
+    out.extend_from_slice(b",\"radius_end\":");
+    out.extend_from_slice(radii[1]);
+    out.extend_from_slice(b",\"kind_start\":\"");
+    out.extend_from_slice(from.kind.name().as_bytes());
+    out.extend_from_slice(b"\",\"kind_end\":\"");
+    out.extend_from_slice(to.kind.name().as_bytes());
+    let mut digits = itoa::Buffer::new();
+    out.extend_from_slice(b"\",\"governor_left\":");
+    out.extend_from_slice(digits.format(path.left).as_bytes());
+    out.extend_from_slice(b",\"governor_right\":");
+    out.extend_from_slice(digits.format(path.right).as_bytes());
+}
+
+/// Radii and positions of the keypoints as they are written, each several times.
+struct Places {
+    text: Vec<u8>,
+    /// Where the radius and the position of each keypoint end.
+    ends: Vec<[usize; 2]>,
+}
+
+impl Places {
+    fn new(axis: &MedialAxis, drawing: Drawing) -> Self {
+        let n = axis.keypoints().len();
+        let mut places = Self { text: Vec::with_capacity(PLACE_BYTES * n), ends: Vec::new() };
+        places.ends.reserve_exact(n);
+        for keypoint in axis.keypoints() {
+            number(&mut places.text, keypoint.radius);
+            let radius = places.text.len();
+            position(
+                &mut places.text,
+                keypoint.position,
+                drawing.radius_as_z.then_some(keypoint.radius),
+            );
+            places.ends.push([radius, places.text.len()]);
+        }
+        places
     }
-    let _ = write!(out, "\"feature\":{},\"source_id\":", source.index);
+
+    fn radius(&self, keypoint: u32) -> &[u8] {
+        let start = keypoint.checked_sub(1).map_or(0, |last| self.ends[last as usize][1]);
+        &self.text[start..self.ends[keypoint as usize][0]]
+    }
+
+    /// The coordinates in their brackets.
+    fn position(&self, keypoint: u32) -> &[u8] {
+        let [start, end] = self.ends[keypoint as usize];
+        &self.text[start..end]
+    }
+}
+
+/// How every feature of one axis begins, behind `before`: with the properties of the source,
+/// renamed where the name is ours, then `feature`, `source_id` and `engine`. Ends with a comma.
+fn beginning(source: &Feature, axis: &MedialAxis, drawing: Drawing, before: &[u8]) -> Vec<u8> {
+    let mut out = Vec::with_capacity(COMMON_BYTES);
+    out.extend_from_slice(before);
+    out.extend_from_slice(b"{\"type\":\"Feature\",\"properties\":{");
+    let properties = &source.properties;
+    let is_name = |name: &str, n: usize| properties[..n].iter().any(|(other, _)| other == name);
+    for (k, (name, value)) in properties.iter().enumerate() {
+        let mut name = Cow::Borrowed(name.as_str());
+        // Prefix until the name is free, so that no property hides another.
+        while is_ours(&name, drawing) || is_name(&name, k) || {
+            name != properties[k].0 && is_name(&name, properties.len())
+        } {
+            name.to_mut().insert_str(0, "source_");
+        }
+        push_quoted(&mut out, &name);
+        out.push(b':');
+        out.extend_from_slice(compact(value).as_bytes());
+        out.push(b',');
+    }
+    out.extend_from_slice(b"\"feature\":");
+    out.extend_from_slice(itoa::Buffer::new().format(source.index).as_bytes());
+    out.extend_from_slice(b",\"source_id\":");
     match &source.id {
-        Some(id) => out.push_str(&compact(id)),
-        None => out.push_str("null"),
+        Some(id) => out.extend_from_slice(compact(id).as_bytes()),
+        None => out.extend_from_slice(b"null"),
     }
-    let _ = write!(out, ",\"engine\":\"{}\",", axis.engine);
+    out.extend_from_slice(b",\"engine\":\"");
+    out.extend_from_slice(axis.engine.name().as_bytes());
+    out.extend_from_slice(b"\",");
     out
 }
 
@@ -129,18 +203,18 @@ fn is_ours(name: &str, drawing: Drawing) -> bool {
         || drawing.keypoints && KEYPOINT.contains(&name)
 }
 
-fn separate(out: &mut String, separator: &str) {
-    if !out.is_empty() {
-        out.push_str(separator);
+fn position(out: &mut Vec<u8>, p: Point, radius: Option<f64>) {
+    out.push(b'[');
+    number(out, p.x);
+    out.push(b',');
+    number(out, p.y);
+    if let Some(radius) = radius {
+        out.push(b',');
+        number(out, radius);
     }
+    out.push(b']');
 }
 
-fn position(out: &mut String, p: Point, radius: Option<f64>) {
-    let mut opening = '[';
-    for value in [p.x, p.y].into_iter().chain(radius) {
-        out.push(opening);
-        push_decimal(out, value);
-        opening = ',';
-    }
-    out.push(']');
+fn number(out: &mut Vec<u8>, value: f64) {
+    decimal(value, |text| out.extend_from_slice(text.as_bytes()));
 }

@@ -53,7 +53,7 @@ impl MedialAxis {
     /// sites and keypoints. `None` for an empty axis.
     #[must_use]
     pub fn bounds(&self) -> Option<(Point, Point)> {
-        let sites = self.sites().iter().flat_map(|s| [s.a, s.b]);
+        let sites = self.sites().0.points().iter().copied();
         sites.chain(self.keypoints().iter().map(|k| k.position)).fold(None, |bounds, p| {
             let (low, high) = bounds.unwrap_or((p, p));
             Some((

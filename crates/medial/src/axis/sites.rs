@@ -134,6 +134,11 @@ impl SiteTable {
         self.listed.shrink_to_fit();
     }
 
+    /// The points of all sites.
+    pub fn points(&self) -> &[Point] {
+        &self.points
+    }
+
     pub fn len(&self) -> u32 {
         // No more were added than can be numbered.
         self.records.len() as u32
