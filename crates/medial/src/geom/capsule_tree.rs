@@ -35,6 +35,9 @@ const RUN: u32 = 64;
 /// Edges of a leaf that are shown without another look at them.
 const SOME: u32 = 2;
 
+/// Children of a node that are entered without another look at them.
+const PAIR: u32 = 2;
+
 /// Levels of nodes in a tree over 2^32 edges, at most, rounded up to a power of two.
 const MOST_LEVELS: usize = 16;
 
@@ -319,7 +322,9 @@ impl CapsuleTree {
                 let node = &self.nodes[(self.levels[level as usize - 1] + number) as usize];
                 mask &= node.lanes.within(&aim.query, &node.width, self.wide);
                 mask &= 0xff;
-                if let Some(rounds) = self.rounds.get() {
+                if mask.count_ones() > PAIR
+                    && let Some(rounds) = self.rounds.get()
+                {
                     mask &=
                         rounded(&rounds[level as usize - 1][first as usize..], look.scope(), mask);
                 }
