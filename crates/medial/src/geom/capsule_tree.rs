@@ -35,6 +35,9 @@ const RUN: u32 = 64;
 /// Edges of a leaf that are shown without another look at them.
 const SOME: u32 = 2;
 
+/// Children of a node that are entered without another look at them.
+const PAIR: u32 = 2;
+
 /// Levels of nodes in a tree over 2^32 edges, at most, rounded up to a power of two.
 const MOST_LEVELS: usize = 16;
 
@@ -319,7 +322,9 @@ impl CapsuleTree {
                 let node = &self.nodes[(self.levels[level as usize - 1] + number) as usize];
                 mask &= node.lanes.within(&aim.query, &node.width, self.wide);
                 mask &= 0xff;
-                if let Some(rounds) = self.rounds.get() {
+                if mask.count_ones() > PAIR
+                    && let Some(rounds) = self.rounds.get()
+                {
                     mask &=
                         rounded(&rounds[level as usize - 1][first as usize..], look.scope(), mask);
                 }
@@ -625,5 +630,26 @@ mod tests {
         seen.edges.sort_unstable();
         assert_eq!(seen.edges, [2047, 2048]);
         assert!(entered <= 9, "{entered} nodes");
+    }
+
+    #[test]
+    fn a_flat_disk_enters_few_nodes_of_equal_steps() {
+        // Steps down to the right, whose inner corners are 2k for the whole numbers k.
+        let corner = |k: u32| Point::new(f64::from(k.div_ceil(2)), -f64::from(k / 2));
+        let tree = CapsuleTree::new(0, 4096, |k| (corner(k), corner(k + 1)));
+        let touched = corner(2048);
+        let radius = 1e5;
+        let inwards = Point::new(-0.5_f64.sqrt(), -0.5_f64.sqrt());
+        let scope = Scope {
+            centre: touched + inwards * radius,
+            reach: radius + 1e-6,
+            normal: Point::default(),
+            border: Point::default(),
+        };
+        let mut seen = Seen { scope, edges: Vec::new() };
+        let entered = tree.visit(Hidden::default(), &mut seen);
+        assert!(seen.edges.contains(&2047) && seen.edges.contains(&2048));
+        // Two of each of the three levels above the leaves, or three, and the leaves beside the corner.
+        assert!(entered <= 12, "{entered} nodes");
     }
 }

@@ -29,6 +29,10 @@ const FAR_OUT: f32 = 256.0;
 /// Length, of a tree of size one, below which squares in 32 bits vanish.
 pub(super) const VANISHING: f32 = 1e-18;
 
+/// Length of a run, in widths of it, from which its capsule is as thin as can be, though a little
+/// longer: flat disks reach far along a straight run, and meet all of it that is too wide.
+const THIN: f32 = 4.0;
+
 /// One number to a capsule.
 type Eight = [f32; FAN];
 
@@ -156,18 +160,33 @@ impl Lanes {
         }
         let Frame { middle: [x, y], half: [long, wide] } = frame;
         let offset = [axis[0] * x - axis[1] * y, axis[1] * x + axis[0] * y];
-        let (axis, reach) =
-            if long >= wide { (axis, long - wide) } else { ([-axis[1], axis[0]], wide - long) };
+        let (axis, long, wide) =
+            if long >= wide { (axis, long, wide) } else { ([-axis[1], axis[0]], wide, long) };
+        // How far both ends are along and across, at once: the farther one along need not be the farther
+        // one across.
+        let along = each(|k| {
+            let (x, y) = (self.x[k] - offset[0], self.y[k] - offset[1]);
+            (axis[0] * x + axis[1] * y).abs()
+                + (axis[0] * self.half_x[k] + axis[1] * self.half_y[k]).abs()
+        });
+        let across = each(|k| {
+            let (x, y) = (self.x[k] - offset[0], self.y[k] - offset[1]);
+            (axis[0] * y - axis[1] * x).abs()
+                + (axis[0] * self.half_y[k] - axis[1] * self.half_x[k]).abs()
+        });
+        let mut reach = long - wide;
+        if long > THIN * wide {
+            // The shortest segment with which no end makes the capsule wider than all of them are.
+            let least = each(|k| {
+                let room = wide - width[k];
+                along[k] - larger(room * room - across[k] * across[k], 0.0).sqrt()
+            });
+            reach = larger(largest(&least), 0.0);
+        }
         // Farthest of the ends from the segment.
         let far = each(|k| {
-            let (x, y) = (self.x[k] - offset[0], self.y[k] - offset[1]);
-            let (hx, hy) = (self.half_x[k], self.half_y[k]);
-            let (along, across) = (axis[0] * x + axis[1] * y, axis[0] * y - axis[1] * x);
-            let (run, rise) = (axis[0] * hx + axis[1] * hy, axis[0] * hy - axis[1] * hx);
-            let beyond = larger((along.abs() + run.abs()) - reach, 0.0);
-            // Both ends at once: the farther one along need not be the farther one across.
-            let aside = larger((across + rise).abs(), (across - rise).abs());
-            (beyond * beyond + aside * aside).sqrt() + width[k]
+            let beyond = larger(along[k] - reach, 0.0);
+            (beyond * beyond + across[k] * across[k]).sqrt() + width[k]
         });
         let width = largest(&far) * (1.0 + ROUNDING) + ROUNDING * self.extent + VANISHING;
         Capsule {

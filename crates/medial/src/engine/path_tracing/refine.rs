@@ -19,8 +19,9 @@ const LEAST_SPREAD: f64 = 1e-12;
 /// Twenty operations of at most 2^-100 each, with room to spare.
 const RESIDUAL_ERROR: f64 = 1.0 / (1_u128 << 90) as f64;
 
-/// Error, relative to the largest of the numbers, below which no other step is taken.
-const SMALL: f64 = f64::EPSILON / 65536.0;
+/// Error, relative to the largest of the numbers, below which no other step is taken: far below what
+/// rounding adds in the end.
+const SMALL: f64 = f64::EPSILON / 64.0;
 
 /// Newton steps that are tried.
 const MOST_STEPS: usize = 6;

@@ -75,6 +75,97 @@ struct Residual {
     error: f64,
 }
 
+/// An element relative to the origin, its normal in doubles.
+#[derive(Clone, Copy)]
+enum Plain {
+    Corner(Pair),
+    /// A point of the supporting line, the way along it and its length, and the unit normal, each
+    /// component within 4u of its own.
+    Edge(Pair, Pair, Double, Point),
+}
+
+impl Plain {
+    fn new(element: Element, origin: Point, near: Point) -> Self {
+        match element {
+            Element::Corner(p) => Self::Corner(Pair::between(origin, p)),
+            Element::Edge(a, b) => {
+                let nearest = if (a - near).norm2() <= (b - near).norm2() { a } else { b };
+                let d = Pair::between(a, b);
+                let length = Double::sum_of_products(d.x, d.x, d.y, d.y).sqrt();
+                let normal = d.value().perp() * (1.0 / length.value());
+                Self::Edge(Pair::between(origin, nearest), d, length, normal)
+            }
+        }
+    }
+
+    /// Unit normal towards the centre, distance less radius, and what that may be off.
+    ///
+    /// For an edge `(d × q - r |d|) / |d|`, for a corner `(q·q - r²) / (|q| + r)`: one root and no
+    /// division is precise.
+    fn residual(&self, disk: &Fine) -> (Point, f64, f64) {
+        let (Self::Corner(p) | Self::Edge(p, ..)) = *self;
+        let (q, r) = (disk.centre.minus(p), disk.radius);
+        let (normal, rest) = match *self {
+            Self::Corner(_) => {
+                let square = Double::sum_of_products(q.x, q.x, q.y, q.y);
+                let distance = square.value().sqrt();
+                let rest = square.less_product(r, r) / (distance + r.value());
+                (q.value() * (1.0 / distance), rest)
+            }
+            Self::Edge(_, d, length, normal) => {
+                let cross = Double::sum_of_products(d.x, q.y, -d.y, q.x);
+                (normal, cross.less_product(r, length) / length.value())
+            }
+        };
+        let size = q.size() + disk.centre.size() + p.size() + r.value().abs();
+        (normal, rest, ROUNDING * size + SHORT + 16.0 * U * rest.abs())
+    }
+}
+
+/// What is seen of three elements from the centre of a disk.
+struct Seen {
+    /// Normal of the first one.
+    first: Point,
+    /// Differences of the normals: from the first to the second, to the third, and from that to the second.
+    b: Point,
+    e: Point,
+    across: Point,
+    /// What differences of normals may be off, beyond u of their own.
+    blur: f64,
+    /// Distances less the radius, and what they may be off.
+    rests: [f64; 3],
+    errors: [f64; 3],
+}
+
+impl Seen {
+    fn plain(disk: &Fine, elements: &[Plain; 3]) -> Self {
+        let [(n1, p1, e1), (n2, p2, e2), (n3, p3, e3)] =
+            [0, 1, 2].map(|k| elements[k].residual(disk));
+        let (b, e, across) = (n2 - n1, n3 - n1, n2 - n3);
+        let blur = 16.0 * U;
+        Self { first: n1, b, e, across, blur, rests: [p1, p2, p3], errors: [e1, e2, e3] }
+    }
+
+    fn precise(disk: &Fine, elements: &[Local; 3]) -> Self {
+        let [r1, r2, r3] = elements.map(|local| disk.residual(local));
+        let difference = |a: &Residual, b: &Residual| b.normal.minus(a.normal).value();
+        Self {
+            first: r1.normal.value(),
+            b: difference(&r1, &r2),
+            e: difference(&r1, &r3),
+            across: difference(&r3, &r2),
+            blur: 4.0 * ROUNDING,
+            rests: [&r1, &r2, &r3].map(|r| r.rest.value()),
+            errors: [r1.error, r2.error, r3.error],
+        }
+    }
+
+    /// Whether the normals are so far apart that what they are off hardly tells.
+    fn is_wide(&self) -> bool {
+        self.b.cross(self.e) > 64.0 * self.blur * (self.b.norm() + self.e.norm())
+    }
+}
+
 /// A disk, each of its numbers, and its distance to anything less its radius, within `error`.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Fine {
@@ -94,37 +185,47 @@ impl Fine {
             return Self::on_normal(v, edge, other, start.radius);
         }
         let origin = start.origin;
-        let mut disk = Self {
+        let disk = Self {
             origin,
             centre: Pair { x: start.centre.x.into(), y: start.centre.y.into() },
             radius: start.radius.into(),
             error: f64::INFINITY,
         };
         let centre = origin + start.centre;
+        let corners = elements.iter().any(|e| matches!(e, Element::Corner(_)));
+        // Where the normals are clearly apart doubles hold them well enough.
+        let plain = elements.map(|element| Plain::new(element, disk.origin, centre));
+        if Seen::plain(&disk, &plain).is_wide()
+            && let Some(found) = Self::steps(disk, corners, |disk| Seen::plain(disk, &plain))
+        {
+            return Some(found);
+        }
         let locals = [
             disk.local(elements[0], centre)?,
             disk.local(elements[1], centre)?,
             disk.local(elements[2], centre)?,
         ];
-        let corners = elements.iter().any(|e| matches!(e, Element::Corner(_)));
+        Self::steps(disk, corners, |disk| Seen::precise(disk, &locals))
+    }
+
+    /// The disk that Newton steps lead to.
+    fn steps(mut disk: Self, corners: bool, see: impl Fn(&Self) -> Seen) -> Option<Self> {
         let mut best: Option<Self> = None;
         for _ in 0..STEPS {
-            let [r1, r2, r3] = locals.map(|local| disk.residual(local));
-            let difference = |a: &Residual, b: &Residual| b.normal.minus(a.normal).value();
-            let (b, e) = (difference(&r1, &r2), difference(&r1, &r3));
+            let Seen { first, b, e, across, blur, rests, errors } = see(&disk);
             let (lb, le) = (b.norm(), e.norm());
             // The components are off by u of their own and what the normals are.
-            let d = b.cross(e) - (8.0 * U * lb * le + 4.0 * ROUNDING * (lb + le));
+            let cross = b.cross(e);
+            let d = cross - (8.0 * U * lb * le + blur * (lb + le + blur));
             if d.is_nan() || d <= 0.0 {
                 return best;
             }
-            let sides = [difference(&r2, &r3).norm(), le, lb].map(|l| l + 4.0 * ROUNDING);
-            let open = |r: &Residual| r.rest.value().abs() + r.error;
+            let sides = [across.norm(), le, lb].map(|l| l + blur);
+            let open = |k: usize| rests[k].abs() + errors[k];
             // What is left is rounding, which no step makes less.
-            let last = [&r1, &r2, &r3].iter().all(|r| r.rest.value().abs() <= r.error);
+            let last = (0..3).all(|k| rests[k].abs() <= errors[k]);
             let factor = 2.0 / d;
-            let mut error =
-                factor * (sides[0] * open(&r1) + sides[1] * open(&r2) + sides[2] * open(&r3));
+            let mut error = factor * (sides[0] * open(0) + sides[1] * open(1) + sides[2] * open(2));
             if corners {
                 let k = factor * (sides[0] + sides[1] + sides[2]);
                 let near = 32.0 * k * error <= disk.radius.value();
@@ -140,10 +241,9 @@ impl Fine {
             } else if best.is_some() {
                 return best;
             }
-            let (p12, p13) = ((r1.rest - r2.rest).value(), (r1.rest - r3.rest).value());
-            let d = b.cross(e);
-            let dx = Point::new((p12 * e.y - p13 * b.y) / d, (b.x * p13 - e.x * p12) / d);
-            let step = r1.rest.value() + r1.normal.value().dot(dx);
+            let (p12, p13) = (rests[0] - rests[1], rests[0] - rests[2]);
+            let dx = Point::new((p12 * e.y - p13 * b.y) / cross, (b.x * p13 - e.x * p12) / cross);
+            let step = rests[0] + first.dot(dx);
             disk.centre.x = disk.centre.x + dx.x.into();
             disk.centre.y = disk.centre.y + dx.y.into();
             disk.radius = disk.radius + step.into();
