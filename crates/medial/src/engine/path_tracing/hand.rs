@@ -65,7 +65,7 @@ impl<'a> Hand<'a> {
         for passed in &search.passed {
             let to = self.traced.add_transition(self.domain, passed)?;
             let Passed { right, left, .. } = *passed;
-            self.traced.paths.push(path(from, to, right, left));
+            self.traced.add_path(&path(from, to, right, left));
             from = to;
         }
         Ok(Arrival { from, right: last_right, left: last_left, found })
@@ -98,8 +98,9 @@ impl<'a> Hand<'a> {
 
     /// What a keypoint with these openings is.
     pub fn set_kind(&mut self, keypoint: u32, n_openings: usize) {
-        self.traced.keypoints[keypoint as usize].kind =
-            if n_openings == 2 { KeypointKind::Transition } else { KeypointKind::Junction };
+        let transition = n_openings == 2;
+        let kind = if transition { KeypointKind::Transition } else { KeypointKind::Junction };
+        self.traced.keypoints.set_kind(keypoint, kind);
     }
 
     /// The start of the path in the convex corner at the start of an edge, and its governors.
