@@ -50,14 +50,19 @@ impl KeypointTable {
 
     /// Adds a keypoint with its governors.
     #[inline]
-    pub fn push(&mut self, keypoint: &Keypoint, governors: &[u32]) {
-        let list = match *governors {
-            [a, b, c] => [a, b, c],
-            [a, b] => [a, b, TWO],
-            _ => {
+    pub fn push(
+        &mut self,
+        keypoint: &Keypoint,
+        governors: impl ExactSizeIterator<Item = u32> + Clone,
+    ) {
+        let mut few = governors.clone();
+        let list = match (governors.len(), few.next(), few.next(), few.next()) {
+            (3, Some(a), Some(b), Some(c)) => [a, b, c],
+            (2, Some(a), Some(b), None) => [a, b, TWO],
+            (n, ..) => {
                 let first = self.more.len() as u32;
-                self.more.extend_from_slice(governors);
-                [first, governors.len() as u32, MORE]
+                self.more.extend(governors);
+                [first, n as u32, MORE]
             }
         };
         let Keypoint { position, radius, kind } = *keypoint;
@@ -190,7 +195,7 @@ mod tests {
         let mut table = KeypointTable::default();
         for (k, &n) in degrees.iter().enumerate() {
             let governors: Vec<u32> = (0..n as u32).map(|g| 10 * k as u32 + g).collect();
-            table.push(&keypoint(k as f64), &governors);
+            table.push(&keypoint(k as f64), governors.into_iter());
         }
         table
     }

@@ -131,7 +131,7 @@ impl MedialAxis {
             if list.iter().any(|&g| g >= sites.len()) {
                 return None;
             }
-            table.push(&Keypoint { position, radius, kind }, list);
+            table.push(&Keypoint { position, radius, kind }, list.iter().copied());
         }
         let paths = PathTable::of(paths.into_iter(), &table);
         Self::from_tables(engine, side, accuracy, complete, sites, table, paths)

@@ -175,9 +175,9 @@ mod tests {
         let mut table = KeypointTable::default();
         let keypoint =
             Keypoint { position: Point::default(), radius: 1.0, kind: KeypointKind::Junction };
-        table.push(&keypoint, &[4, 2, 7]);
-        table.push(&keypoint, &[2, 7]);
-        table.push(&keypoint, &(0..300).collect::<Vec<u32>>());
+        table.push(&keypoint, [4, 2, 7].into_iter());
+        table.push(&keypoint, [2, 7].into_iter());
+        table.push(&keypoint, 0..300);
         table
     }
 

@@ -1,7 +1,5 @@
 //! What was traced, and the axis made of it.
 
-use smallvec::SmallVec;
-
 use super::chain::Passed;
 use super::hand::{from_least, three_from_least};
 use super::numbers::Numbers;
@@ -81,13 +79,7 @@ impl Traced {
     pub fn add(&mut self, position: Point, radius: f64, kind: KeypointKind, list: &[Site]) -> u32 {
         let number = self.keypoints.len();
         let keypoint = Keypoint { position, radius, kind };
-        match *list {
-            [a, b, c] => self.keypoints.push(&keypoint, &[a.0, b.0, c.0]),
-            _ => {
-                let list: SmallVec<[u32; 8]> = list.iter().map(|s| s.0).collect();
-                self.keypoints.push(&keypoint, &list);
-            }
-        }
+        self.keypoints.push(&keypoint, list.iter().map(|site| site.0));
         number
     }
 

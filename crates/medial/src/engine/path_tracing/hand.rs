@@ -134,7 +134,10 @@ pub(super) fn from_least(list: &[Site]) -> Contacts {
         return Contacts::from_slice(&three_from_least([a, b, c]));
     }
     let least = (0..list.len()).min_by_key(|&k| list[k]).unwrap_or(0);
-    list[least..].iter().chain(&list[..least]).copied().collect()
+    let (mut from_least, (end, start)) = (Contacts::new(), list.split_at(least));
+    from_least.extend_from_slice(start);
+    from_least.extend_from_slice(end);
+    from_least
 }
 
 /// The same of three.
