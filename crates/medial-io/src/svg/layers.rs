@@ -232,7 +232,7 @@ pub(super) fn cells(canvas: &mut Canvas, scenes: &[Scene]) {
 
 /// The part of the plane between a path and its footpoints on one governor.
 fn zone(data: &mut Data, axis: &MedialAxis, path: &Path, site: &Site) {
-    let curve = axis.curve(&path);
+    let curve = axis.curve(path);
     data.move_to(curve.from());
     data.curve_to(&curve);
     data.line_to(site.footpoint(curve.to()));

@@ -133,6 +133,15 @@ pub(super) fn from_least(list: &[Site]) -> Contacts {
     if let [a, b, c] = *list {
         return Contacts::from_slice(&three_from_least([a, b, c]));
     }
+    if let [a, b, c, d] = *list {
+        let turned = match [a, b, c, d].into_iter().min() {
+            least if least == Some(a) => [a, b, c, d],
+            least if least == Some(b) => [b, c, d, a],
+            least if least == Some(c) => [c, d, a, b],
+            _ => [d, a, b, c],
+        };
+        return Contacts::from_slice(&turned);
+    }
     let least = (0..list.len()).min_by_key(|&k| list[k]).unwrap_or(0);
     let (mut from_least, (end, start)) = (Contacts::new(), list.split_at(least));
     from_least.extend_from_slice(start);
