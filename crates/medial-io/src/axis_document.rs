@@ -132,7 +132,7 @@ pub fn write(source: &Feature, axis: &MedialAxis) -> String {
                 from: path.from,
                 to: path.to,
                 governors: [path.left, path.right],
-                curve: axis.curve_kind(path).name().into(),
+                curve: axis.curve_kind(&path).name().into(),
             })
             .collect(),
     };

@@ -49,13 +49,13 @@ impl Drawing {
 }
 
 /// What the formats say of a path.
-pub(crate) struct PathRecord<'a> {
-    pub path: &'a Path,
+pub(crate) struct PathRecord {
+    pub path: Path,
     pub curve: Curve,
-    pub ends: [&'a Keypoint; 2],
+    pub ends: [Keypoint; 2],
 }
 
-impl PathRecord<'_> {
+impl PathRecord {
     /// The columns GeoJSON and CSV share, from `curve` to `governor_right`.
     pub const COLUMNS: [&'static str; 10] = [
         "curve",
@@ -72,11 +72,11 @@ impl PathRecord<'_> {
 }
 
 /// A record for every path, in their order.
-pub(crate) fn records(axis: &MedialAxis) -> impl Iterator<Item = PathRecord<'_>> {
+pub(crate) fn records(axis: &MedialAxis) -> impl Iterator<Item = PathRecord> {
     let keypoints = axis.keypoints();
     axis.paths().iter().map(move |path| PathRecord {
         path,
-        curve: axis.curve(path),
-        ends: [path.from, path.to].map(|k| &keypoints[k as usize]),
+        curve: axis.curve(&path),
+        ends: [path.from, path.to].map(|k| keypoints.at(k)),
     })
 }

@@ -48,10 +48,10 @@ fn points_of_a_curve_are_as_far_from_both_governors_as_the_radius() {
     for (feature, axis) in all() {
         let bound = rounding(&axis);
         for path in axis.paths() {
-            let curve = axis.curve(path);
+            let curve = axis.curve(&path);
             for u in [0.0, 0.1, 0.35, 0.5, 0.8, 1.0] {
                 let (p, radius) = (curve.point_at(u), curve.radius_at(u));
-                for site in axis.path_governors(path) {
+                for site in axis.path_governors(&path) {
                     let distance = (site.footpoint(p) - p).norm();
                     // The corner far away turns an error of position into one of the radius.
                     assert!(
@@ -61,7 +61,7 @@ fn points_of_a_curve_are_as_far_from_both_governors_as_the_radius() {
                     );
                 }
             }
-            assert_eq!(curve.kind(), axis.curve_kind(path));
+            assert_eq!(curve.kind(), axis.curve_kind(&path));
             match curve.kind() {
                 CurveKind::Parabola => parabolas += 1,
                 _ => lines += 1,
@@ -76,7 +76,7 @@ fn the_control_point_agrees_with_the_curve() {
     for (_, axis) in all() {
         let bound = rounding(&axis);
         for path in axis.paths() {
-            let curve = axis.curve(path);
+            let curve = axis.curve(&path);
             let Some(control) = curve.control() else { continue };
             let middle = (curve.from() + curve.to()) * 0.25 + control * 0.5;
             assert!((middle - curve.point_at(0.5)).norm() <= bound, "{path:?}");
@@ -90,7 +90,7 @@ fn lengths_and_radii_bound_what_is_drawn() {
         let bound = rounding(&axis);
         let tolerance = default_tolerance(&axis);
         for path in axis.paths() {
-            let curve = axis.curve(path);
+            let curve = axis.curve(&path);
             let drawn = curve.polyline(tolerance);
             let polyline: f64 = drawn.windows(2).map(|w| (w[1].0 - w[0].0).norm()).sum();
             assert!(curve.length() >= polyline - bound, "{path:?}");
@@ -111,13 +111,13 @@ fn drawn_points_of_parabolas_stay_within_the_tolerance() {
         let bound = rounding(&axis);
         let tolerance = default_tolerance(&axis);
         for path in axis.paths() {
-            let [left, right] = axis.path_governors(path);
+            let [left, right] = axis.path_governors(&path);
             if left.kind == right.kind {
                 continue;
             }
             let (edge, corner) =
                 if left.kind == SiteKind::Edge { (left, right.a) } else { (right, left.a) };
-            for w in axis.curve(path).polyline(tolerance).windows(2) {
+            for w in axis.curve(&path).polyline(tolerance).windows(2) {
                 let middle = (w[0].0 + w[1].0) * 0.5;
                 // Beyond a parabola by s, the two distances differ by at most 2 s.
                 let differ = (middle - corner).norm() - height(edge.a, edge.b, middle);

@@ -105,7 +105,7 @@ fn damaged_axis_documents_are_read_or_refused() {
                 // What is read can be drawn, whatever its numbers say.
                 Ok(document) => {
                     for path in document.axis.paths() {
-                        let curve = document.axis.curve(path);
+                        let curve = document.axis.curve(&path);
                         let _ =
                             (curve.length(), curve.polyline(1e-2), curve.polyline_in_space(1e-2));
                     }

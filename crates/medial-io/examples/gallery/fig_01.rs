@@ -34,10 +34,10 @@ fn draw() -> Fallible<String> {
         .iter()
         .find(|p| [p.from, p.to].contains(&junction) && [p.from, p.to].contains(&transition));
     let spine = spine.ok_or("the two keypoints are not joined")?;
-    let curve = shape.axis.curve(spine);
+    let curve = shape.axis.curve(&spine);
     let (regular, radius) = (curve.point_at(0.5), curve.radius_at(0.5));
     panel.disk(regular, radius, DISK);
-    panel.spokes(regular, &shape.axis.path_governors(spine));
+    panel.spokes(regular, &shape.axis.path_governors(&spine));
     panel.axis(&shape.axis);
     panel.keypoints(&shape.axis);
     panel.point(regular, PURPLE);

@@ -53,8 +53,8 @@ fn draw() -> Fallible<String> {
                 length(p).total_cmp(&length(q))
             })
             .ok_or("no path with such governors")?;
-        let governors = shape.axis.path_governors(path);
-        let curve = shape.axis.curve(path);
+        let governors = shape.axis.path_governors(&path);
+        let curve = shape.axis.curve(&path);
         for u in [0.0, 0.3, 0.7, 1.0] {
             panel.disk(curve.point_at(u), curve.radius_at(u), DISK);
             panel.spokes(curve.point_at(u), &governors);

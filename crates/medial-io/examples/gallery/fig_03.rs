@@ -37,11 +37,11 @@ fn draw() -> Fallible<String> {
         region(&shape, &mut panel, site)?;
     }
     for path in shape.axis.paths() {
-        for governor in shape.axis.path_governors(path) {
+        for governor in shape.axis.path_governors(&path) {
             for (site, style) in [(wall, EDGE_CELL), (ceiling, EDGE_CELL), (corner, CORNER_CELL)] {
                 let chosen = shape.site(site);
                 if (governor.a, governor.b) == (chosen.a, chosen.b) {
-                    panel.cell(&shape.axis.curve(path), &governor, style);
+                    panel.cell(&shape.axis.curve(&path), &governor, style);
                 }
             }
         }

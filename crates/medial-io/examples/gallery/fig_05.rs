@@ -44,7 +44,7 @@ fn draw() -> Fallible<String> {
     for path in axis.paths() {
         let (a, b) = (layout[path.from as usize], layout[path.to as usize]);
         panel.line(a, b, AXIS);
-        let [left, right] = axis.path_governors(path).map(|s| name(axis, &s));
+        let [left, right] = axis.path_governors(&path).map(|s| name(axis, &s));
         panel.small(a * 0.42 + b * 0.58, (0.0, 9.0), MUTED, &format!("{left} {right}"));
     }
     for (k, (keypoint, &at)) in axis.keypoints().iter().zip(&layout).enumerate() {

@@ -32,7 +32,7 @@ fn draw() -> Fallible<String> {
     let mut sheet = Sheet::new(1, (860.0, height));
     let mut panel = sheet.panel(window, "");
     panel.walks(&domain, SHORE, |points| meets(window, points));
-    let curves: Vec<Curve> = axis.paths().iter().map(|p| axis.curve(p)).collect();
+    let curves: Vec<Curve> = axis.paths().iter().map(|p| axis.curve(&p)).collect();
     panel.curves(curves.iter().filter(|c| meets(window, &[c.from(), c.to()])), FINE);
     panel.mat();
     Ok(sheet.finish(LESSON.title))

@@ -101,9 +101,8 @@ impl Shape {
             .filter(|(_, k)| k.kind == kind)
             .min_by(|a, b| {
                 let far = |k: &Keypoint| (k.position - near).norm2();
-                far(a.1).total_cmp(&far(b.1))
+                far(&a.1).total_cmp(&far(&b.1))
             })
-            .map(|(number, keypoint)| (number, *keypoint))
             .ok_or_else(|| "no such keypoint".into())
     }
 
@@ -125,7 +124,7 @@ pub fn half_line(shape: &Shape, corner: u32, normal: Point) -> Fallible<Point> {
     if edge.corner != Corner::Convex {
         return Ok(normal);
     }
-    let curves = shape.axis.paths().iter().map(|p| shape.axis.curve(p));
+    let curves = shape.axis.paths().iter().map(|p| shape.axis.curve(&p));
     let way = |from: Point, to: Point| (to - from) * (1.0 / (to - from).norm());
     curves
         .filter_map(|c| {

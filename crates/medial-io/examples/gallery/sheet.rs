@@ -232,7 +232,7 @@ impl Panel<'_> {
     /// All paths of an axis.
     pub fn axis(&mut self, axis: &MedialAxis) {
         for path in axis.paths() {
-            self.curve(&axis.curve(path), style::AXIS);
+            self.curve(&axis.curve(&path), style::AXIS);
         }
     }
 

@@ -50,7 +50,7 @@ pub(super) fn axis(canvas: &mut Canvas, scenes: &[Scene], radius_max: f64) {
     let mut steps: Vec<Data> = (0..STEPS).map(|_| Data::new(&frame)).collect();
     for axis in scenes.iter().map(|s| &s.axis) {
         for path in axis.paths() {
-            for (step, piece) in colored(&axis.curve(path), radius_max) {
+            for (step, piece) in colored(&axis.curve(&path), radius_max) {
                 let data = &mut steps[step];
                 data.move_to(piece.from());
                 data.curve_to(&piece);
@@ -116,15 +116,16 @@ fn room(axis: &MedialAxis) -> Vec<f64> {
     let keypoints = axis.keypoints();
     let mut room = vec![f64::INFINITY; keypoints.len()];
     for path in axis.paths() {
+        let [start, end] = [path.from, path.to].map(|k| keypoints.at(k).position);
+        let length = (end - start).norm();
         let (from, to) = (path.from as usize, path.to as usize);
-        let length = (keypoints[to].position - keypoints[from].position).norm();
         room[from] = room[from].min(length);
         room[to] = room[to].min(length);
     }
     for path in axis.paths() {
         for (end, other) in [(path.from, path.to), (path.to, path.from)] {
-            let (end, other) = (end as usize, other as usize);
-            if keypoints[end].kind == KeypointKind::End {
+            if keypoints.at(end).kind == KeypointKind::End {
+                let (end, other) = (end as usize, other as usize);
                 room[end] = room[end].min(room[other]);
             }
         }
@@ -194,9 +195,9 @@ pub(super) fn zones(canvas: &mut Canvas, scenes: &[Scene]) {
         let mut data = Data::new(&frame);
         for axis in scenes.iter().map(|s| &s.axis) {
             for path in axis.paths() {
-                for site in axis.path_governors(path) {
+                for site in axis.path_governors(&path) {
                     if site.kind == kind {
-                        zone(&mut data, axis, path, &site);
+                        zone(&mut data, axis, &path, &site);
                     }
                 }
             }
@@ -217,7 +218,7 @@ pub(super) fn cells(canvas: &mut Canvas, scenes: &[Scene]) {
         for path in axis.paths() {
             for governor in [path.left, path.right] {
                 let site = axis.sites().at(governor);
-                zone(&mut cells[governor as usize], axis, path, &site);
+                zone(&mut cells[governor as usize], axis, &path, &site);
             }
         }
         let cells: Vec<String> = cells.into_iter().map(|d| d.text).collect();

@@ -294,7 +294,7 @@ impl MedialAxis {
     pub fn curve(&self, path: &Path) -> Curve {
         let sites = self.sites();
         let end = |k: u32| {
-            let Keypoint { position, radius, .. } = self.keypoints()[k as usize];
+            let Keypoint { position, radius, .. } = self.keypoints().at(k);
             (position, radius)
         };
         Curve::new(&sites.at(path.left), &sites.at(path.right), end(path.from), end(path.to))

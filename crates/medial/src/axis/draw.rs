@@ -80,7 +80,7 @@ impl MedialAxis {
     /// # Panics
     /// If the axis has no such keypoint.
     pub fn footpoints(&self, keypoint: u32) -> impl Iterator<Item = Point> {
-        let centre = self.keypoints()[keypoint as usize].position;
+        let centre = self.keypoints().at(keypoint).position;
         self.governors(keypoint).iter().map(move |&g| self.sites().at(g).footpoint(centre))
     }
 

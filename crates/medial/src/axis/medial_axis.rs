@@ -1,3 +1,7 @@
+use std::fmt;
+
+use super::keypoints::{KeypointTable, Keypoints};
+use super::paths::{PathTable, Paths};
 use super::sites::{SiteTable, Sites};
 use crate::geom::Point;
 
@@ -75,33 +79,6 @@ pub struct Keypoint {
     pub radius: f64,
     /// What meets here.
     pub kind: KeypointKind,
-    /// Where the keypoint's governors start in the axis's list; see [`MedialAxis::governors`].
-    governors: u32,
-}
-
-impl Keypoint {
-    /// A keypoint whose governors start at `governors` in the common list.
-    pub(crate) fn new(position: Point, radius: f64, kind: KeypointKind, governors: u32) -> Self {
-        Self { position, radius, kind, governors }
-    }
-
-    /// Where its governors start in the common list.
-    pub(crate) fn first_governor(&self) -> u32 {
-        self.governors
-    }
-
-    /// The same with its governors at another place of the list.
-    pub(crate) fn with_governors(self, governors: u32) -> Self {
-        Self { governors, ..self }
-    }
-}
-
-/// Governors of one of these keypoints, which share a list in their order.
-pub(crate) fn governors<'a>(keypoints: &[Keypoint], all: &'a [u32], keypoint: u32) -> &'a [u32] {
-    let keypoint = keypoint as usize;
-    let first = keypoints[keypoint].governors as usize;
-    let last = keypoints.get(keypoint + 1).map_or(all.len(), |k| k.governors as usize);
-    &all[first..last]
 }
 
 /// A piece of the axis with the same two governors all along.
@@ -118,7 +95,7 @@ pub struct Path {
 }
 
 /// A medial axis: sites, keypoints and paths.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, PartialEq)]
 pub struct MedialAxis {
     /// Who computed it.
     pub engine: Engine,
@@ -129,9 +106,8 @@ pub struct MedialAxis {
     /// Side of the boundary.
     pub side: Side,
     sites: SiteTable,
-    keypoints: Vec<Keypoint>,
-    governors: Vec<u32>,
-    paths: Vec<Path>,
+    keypoints: KeypointTable,
+    paths: PathTable,
 }
 
 impl MedialAxis {
@@ -149,35 +125,31 @@ impl MedialAxis {
         keypoints: impl IntoIterator<Item = (Point, f64, KeypointKind, &'a [u32])>,
         paths: Vec<Path>,
     ) -> Option<Self> {
-        let mut table = Vec::new();
-        let mut governors = Vec::new();
-        for (position, radius, kind, list) in keypoints {
-            table.push(Keypoint::new(position, radius, kind, governors.len() as u32));
-            governors.extend_from_slice(list);
-        }
         let sites = SiteTable::of(sites.into_iter())?;
-        Self::from_tables(engine, side, accuracy, complete, sites, table, governors, paths)
+        let mut table = KeypointTable::default();
+        for (position, radius, kind, list) in keypoints {
+            if list.iter().any(|&g| g >= sites.len()) {
+                return None;
+            }
+            table.push(&Keypoint { position, radius, kind }, list.iter().copied());
+        }
+        let paths = PathTable::of(paths.into_iter(), &table);
+        Self::from_tables(engine, side, accuracy, complete, sites, table, paths)
     }
 
     /// The axis with these tables, if every number points into its table.
-    #[allow(clippy::too_many_arguments)]
     pub(crate) fn from_tables(
         engine: Engine,
         side: Side,
         accuracy: Accuracy,
         complete: bool,
         sites: SiteTable,
-        keypoints: Vec<Keypoint>,
-        governors: Vec<u32>,
-        paths: Vec<Path>,
+        keypoints: KeypointTable,
+        paths: PathTable,
     ) -> Option<Self> {
-        let (n_sites, n_keypoints) = (sites.len(), keypoints.len() as u32);
-        let sound = governors.iter().all(|&g| g < n_sites)
-            && paths.iter().all(|p| {
-                p.from < n_keypoints && p.to < n_keypoints && p.left < n_sites && p.right < n_sites
-            });
-        let axis = Self { engine, accuracy, complete, side, sites, keypoints, governors, paths };
-        sound.then_some(axis)
+        let sound = keypoints.governors_below(sites.len())
+            && paths.numbers_below(keypoints.len(), sites.len());
+        sound.then_some(Self { engine, accuracy, complete, side, sites, keypoints, paths })
     }
 
     /// Boundary elements that govern something.
@@ -188,20 +160,40 @@ impl MedialAxis {
 
     /// All keypoints.
     #[must_use]
-    pub fn keypoints(&self) -> &[Keypoint] {
-        &self.keypoints
+    pub fn keypoints(&self) -> Keypoints<'_> {
+        Keypoints(&self.keypoints)
     }
 
     /// All paths.
     #[must_use]
-    pub fn paths(&self) -> &[Path] {
-        &self.paths
+    pub fn paths(&self) -> Paths<'_> {
+        Paths { paths: &self.paths, keypoints: &self.keypoints }
     }
 
     /// Governors of keypoint number `keypoint`, as numbers of [`sites`](Self::sites):
     /// counterclockwise by footpoint, starting with the smallest.
+    ///
+    /// # Panics
+    /// If the axis has no such keypoint.
     #[must_use]
     pub fn governors(&self, keypoint: u32) -> &[u32] {
-        governors(&self.keypoints, &self.governors, keypoint)
+        self.keypoints.governors(keypoint)
+    }
+}
+
+impl fmt::Debug for MedialAxis {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { engine, accuracy, complete, side, .. } = self;
+        let numbers = 0..self.keypoints.len();
+        f.debug_struct("MedialAxis")
+            .field("engine", engine)
+            .field("accuracy", accuracy)
+            .field("complete", complete)
+            .field("side", side)
+            .field("sites", &self.sites())
+            .field("keypoints", &self.keypoints())
+            .field("governors", &numbers.map(|k| self.governors(k)).collect::<Vec<_>>())
+            .field("paths", &self.paths())
+            .finish()
     }
 }

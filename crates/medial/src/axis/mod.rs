@@ -2,16 +2,22 @@
 
 mod curve;
 mod draw;
+mod keypoints;
 mod medial_axis;
 mod names;
+mod paths;
 mod sites;
+mod views;
 
 pub use curve::Curve;
 pub use draw::CurveKind;
-pub(crate) use medial_axis::governors;
+pub(crate) use keypoints::KeypointTable;
+pub use keypoints::{Keypoints, KeypointsIter};
 pub use medial_axis::{
     Accuracy, Engine, Keypoint, KeypointKind, MedialAxis, Path, Side, Site, SiteKind,
 };
 pub use names::UnknownName;
+pub(crate) use paths::PathTable;
+pub use paths::{Paths, PathsIter};
 pub(crate) use sites::SiteTable;
 pub use sites::{Sites, SitesIter};

@@ -1,9 +1,8 @@
 //! The sites of an axis: a corner once, however many sites meet there, and a few numbers a site.
 
 use std::fmt;
-use std::iter::FusedIterator;
-use std::ops::Range;
 
+use super::views::view;
 use super::{Site, SiteKind};
 use crate::geom::Point;
 
@@ -33,6 +32,9 @@ struct Record {
 const VERTEX: u32 = 1 << 31;
 const LISTED: u32 = 1 << 30;
 const POINT: u32 = LISTED - 1;
+
+/// The greatest numbers mean something else where governors are listed.
+const MOST_SITES: usize = (u32::MAX - 8) as usize;
 
 /// Sites from `first` on, up to the next run.
 #[derive(Clone, Copy)]
@@ -82,7 +84,7 @@ impl SiteTable {
     #[inline(always)]
     pub fn put(&mut self, site: &Site) -> Option<()> {
         let number = self.records.len();
-        if self.points.len() + 2 > POINT as usize || number >= u32::MAX as usize {
+        if self.points.len() + 2 > POINT as usize || number >= MOST_SITES {
             return None;
         }
         let number = number as u32;
@@ -173,13 +175,13 @@ fn same(p: Point, q: Point) -> bool {
 
 impl PartialEq for SiteTable {
     fn eq(&self, other: &Self) -> bool {
-        Sites(self).iter().eq(Sites(other))
+        Sites(self) == Sites(other)
     }
 }
 
 impl fmt::Debug for SiteTable {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_list().entries(Sites(self)).finish()
+        Sites(self).fmt(f)
     }
 }
 
@@ -188,20 +190,14 @@ impl fmt::Debug for SiteTable {
 /// Coordinates are in units of the input. An axis keeps 8 bytes for each site and 16 for each
 /// corner, and a few for each ring. Asking for one site takes logarithmic time in the number of
 /// rings.
-#[derive(Clone, Copy, PartialEq)]
+#[derive(Clone, Copy)]
 pub struct Sites<'a>(pub(super) &'a SiteTable);
 
-impl<'a> Sites<'a> {
+impl Sites<'_> {
     /// How many there are.
     #[must_use]
     pub fn len(self) -> usize {
         self.0.records.len()
-    }
-
-    /// Whether there are none.
-    #[must_use]
-    pub fn is_empty(self) -> bool {
-        self.len() == 0
     }
 
     /// Site number `number`, counted as [`Path`](super::Path) and
@@ -213,58 +209,13 @@ impl<'a> Sites<'a> {
     pub fn at(self, number: u32) -> Site {
         self.0.at(number)
     }
-
-    /// All of them, in their order.
-    #[must_use]
-    pub fn iter(self) -> SitesIter<'a> {
-        SitesIter { sites: self, rest: 0..self.0.len() }
-    }
 }
 
-impl fmt::Debug for Sites<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.0.fmt(f)
-    }
+view! {
+    Sites of Site;
+    /// The sites of an axis, one after the other, by value.
+    SitesIter
 }
-
-impl<'a> IntoIterator for Sites<'a> {
-    type Item = Site;
-    type IntoIter = SitesIter<'a>;
-
-    fn into_iter(self) -> SitesIter<'a> {
-        self.iter()
-    }
-}
-
-/// The sites of an axis, one after the other, by value.
-#[derive(Clone, Debug)]
-pub struct SitesIter<'a> {
-    sites: Sites<'a>,
-    rest: Range<u32>,
-}
-
-impl Iterator for SitesIter<'_> {
-    type Item = Site;
-
-    fn next(&mut self) -> Option<Site> {
-        self.rest.next().map(|k| self.sites.at(k))
-    }
-
-    fn size_hint(&self) -> (usize, Option<usize>) {
-        let n = self.rest.len();
-        (n, Some(n))
-    }
-}
-
-impl DoubleEndedIterator for SitesIter<'_> {
-    fn next_back(&mut self) -> Option<Site> {
-        self.rest.next_back().map(|k| self.sites.at(k))
-    }
-}
-
-impl ExactSizeIterator for SitesIter<'_> {}
-
-impl FusedIterator for SitesIter<'_> {}
 
 #[cfg(test)]
 mod tests {

@@ -17,7 +17,7 @@ pub(super) fn identity(context: &Context) -> Identity {
     for path in context.axis.paths() {
         let sites = (context.sites[path.left as usize], context.sites[path.right as usize]);
         let (Some(left), Some(right)) = sites else { continue };
-        let (area, error) = beside(context, path, left, right);
+        let (area, error) = beside(context, &path, left, right);
         sum = sum + area.into();
         bound += error;
     }
@@ -51,7 +51,7 @@ fn area(domain: &Domain) -> (f64, f64) {
 /// The area of the two pieces of cells beside a path, and its error.
 fn beside(context: &Context, path: &Path, left: Site, right: Site) -> (f64, f64) {
     let domain = context.domain;
-    let ends = [path.from, path.to].map(|k| &context.axis.keypoints()[k as usize]);
+    let ends = [path.from, path.to].map(|k| context.axis.keypoints().at(k));
     let [c1, c2] = ends.map(|k| k.position);
     let [r1, r2] = ends.map(|k| k.radius);
     // Any point of the boundary near by makes the coordinates small.

@@ -65,7 +65,7 @@ impl<'a> Context<'a> {
 
     /// Position of keypoint number `keypoint`.
     pub(super) fn position(&self, keypoint: u32) -> Point {
-        self.axis.keypoints()[keypoint as usize].position
+        self.axis.keypoints().at(keypoint).position
     }
 
     /// The governors of a keypoint as elements of the domain; `None` if one is unknown.

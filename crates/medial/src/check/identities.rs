@@ -60,7 +60,7 @@ pub(super) fn identities(context: &Context, counts: &Counts) -> Vec<Identity> {
     let axis = context.axis;
     let (n, m) = (counts.edges as i64, counts.reflex as i64);
     let (paths, keypoints) = (counts.paths as i64, axis.keypoints().len() as i64);
-    let inner = |k: &u32| axis.keypoints()[*k as usize].kind != KeypointKind::End;
+    let inner = |k: &u32| axis.keypoints().at(*k).kind != KeypointKind::End;
     let governors: i64 =
         (0..keypoints as u32).filter(inner).map(|k| axis.governors(k).len() as i64 - 2).sum();
     let points = keypoints - counts.ends as i64;

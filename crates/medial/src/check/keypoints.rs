@@ -52,7 +52,7 @@ pub(super) fn check(context: &Context, defects: &mut Vec<Defect>) -> Keypoints {
     let mut listed_by = vec![0u32; elements];
     for (k, keypoint) in context.axis.keypoints().iter().enumerate() {
         let number = k as u32;
-        let mut one = One { context, number, keypoint, degree: degrees[k], defects };
+        let mut one = One { context, number, keypoint: &keypoint, degree: degrees[k], defects };
         one.check_kind();
         let Some(sites) = one.governors(&mut listed_by) else { continue };
         if keypoint.kind == KeypointKind::End {

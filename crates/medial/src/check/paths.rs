@@ -33,12 +33,12 @@ pub(super) fn check(context: &Context, found: &Keypoints, defects: &mut Vec<Defe
             defects.push(Defect::OwnEdge { path: number, at });
             continue;
         }
-        match direction(context, found, path, left, right) {
+        match direction(context, found, &path, left, right) {
             Some(Ordering::Equal) => defects.push(Defect::Uncontracted { path: number, at }),
             Some(Ordering::Less) => defects.push(Defect::Reversed { path: number, at }),
             _ => {}
         }
-        check_middle(context, number, path, left, right, defects);
+        check_middle(context, number, &path, left, right, defects);
     }
 }
 

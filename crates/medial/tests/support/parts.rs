@@ -33,7 +33,7 @@ impl Parts {
             accuracy: axis.accuracy,
             sites: axis.sites().iter().collect(),
             keypoints: keypoints.collect(),
-            paths: axis.paths().to_vec(),
+            paths: axis.paths().iter().collect(),
         }
     }
 

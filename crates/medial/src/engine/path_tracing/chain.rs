@@ -116,6 +116,7 @@ impl Search<'_> {
         before: Option<Before<'_>>,
     ) -> Option<Found> {
         self.passed.clear();
+        self.from_holes = false;
         if self.runs_into_corner(right, left) {
             return self.ends_in_corner(right, left, start);
         }
@@ -575,6 +576,7 @@ impl Search<'_> {
             }
             if let Some((link, hit)) = self.among_holes(anchor, gap.front, &disk) {
                 self.go_back(link);
+                self.from_holes = true;
                 return Some(hit);
             }
             let few = self.few_ahead(gap.front);
@@ -643,7 +645,9 @@ impl Search<'_> {
     ) -> Option<Found> {
         // The exact disk of the proposal, where only exact arithmetic made it.
         let mut exact = None;
-        if let Some((link, nearer)) = self.among_holes(anchor, front, &end.disk) {
+        if !std::mem::take(&mut self.from_holes)
+            && let Some((link, nearer)) = self.among_holes(anchor, front, &end.disk)
+        {
             self.go_back(link);
             end = nearer;
         }

@@ -6,7 +6,7 @@ use crate::domain::{Corner, Domain, Site};
 use crate::geom::predicates::ExactDisk;
 use crate::geom::{Point, TouchingDisk, cross_directions};
 
-/// Angles of footpoints closer than this, in radians, are ordered exactly.
+/// Angles of footpoints closer than this, in quarters of a turn or less, are ordered exactly.
 ///
 /// Where the disk's bound is not far below that share of its radius, all are.
 const CLEAR_ANGLE: f64 = 1e-6;
@@ -40,13 +40,13 @@ pub(super) fn sort(
         sort_exactly(domain, exact, contacts);
         return;
     }
-    let mut by_angle: Vec<(f64, Site)> =
+    let mut by_angle: SmallVec<[(f64, Site); 8]> =
         contacts.iter().map(|&s| (angle(domain, disk, s), s)).collect();
-    by_angle.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+    by_angle.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
     // Cut the circle at its widest gap, so that no doubtful pair is torn apart.
     let n = by_angle.len();
     let gap = |k: usize| {
-        let turn = if k == 0 { std::f64::consts::TAU } else { 0.0 };
+        let turn = if k == 0 { TURN } else { 0.0 };
         by_angle[k].0 + turn - by_angle[(k + n - 1) % n].0
     };
     let first = (0..n).max_by(|&a, &b| gap(a).total_cmp(&gap(b))).unwrap_or(0);
@@ -55,7 +55,8 @@ pub(super) fn sort(
     while start < n {
         let mut end = start + 1;
         while end < n {
-            let step = (by_angle[end].0 - by_angle[end - 1].0).rem_euclid(std::f64::consts::TAU);
+            let step = by_angle[end].0 - by_angle[end - 1].0;
+            let step = if step < 0.0 { step + TURN } else { step };
             if step > CLEAR_ANGLE {
                 break;
             }
@@ -91,6 +92,11 @@ fn sort_exactly(domain: &Domain, disk: &ExactDisk, contacts: &mut Contacts) {
     }
 }
 
+/// A whole turn, as [`angle`] counts.
+const TURN: f64 = 4.0;
+
+/// The direction of a footpoint as a number that grows counterclockwise, by one each quarter of a turn
+/// and nowhere faster than the angle in radians.
 fn angle(domain: &Domain, disk: &TouchingDisk, site: Site) -> f64 {
     let edge = domain.edge(site.index());
     let foot = if site.is_edge() {
@@ -98,7 +104,14 @@ fn angle(domain: &Domain, disk: &TouchingDisk, site: Site) -> f64 {
     } else {
         (edge.start - disk.origin) - disk.centre
     };
-    foot.y.atan2(foot.x)
+    let share = foot.y / (foot.x.abs() + foot.y.abs());
+    if foot.x >= 0.0 {
+        share
+    } else if foot.y >= 0.0 {
+        2.0 - share
+    } else {
+        -2.0 - share
+    }
 }
 
 /// The counterclockwise order of two contacts less than half a turn apart.

@@ -1,14 +1,13 @@
 //! What was traced, and the axis made of it.
 
-use std::ops::Range;
-
 use super::chain::Passed;
 use super::hand::{from_least, three_from_least};
 use super::numbers::Numbers;
 use super::positions::{Fixed, position};
 use super::search::Start;
 use crate::axis::{
-    self, Accuracy, Engine, Keypoint, KeypointKind, MedialAxis, Path, Side, SiteKind, SiteTable,
+    self, Accuracy, Engine, Keypoint, KeypointKind, KeypointTable, MedialAxis, Path, PathTable,
+    Side, SiteKind, SiteTable,
 };
 use crate::domain::{Domain, Origin, Site};
 use crate::engine::EngineError;
@@ -25,17 +24,15 @@ const PLACED: f64 = 6.0 * f64::EPSILON;
 /// Keypoints and paths, with sites by their numbers in the domain.
 #[derive(Debug, Default)]
 pub(super) struct Traced {
-    pub keypoints: Vec<Keypoint>,
-    pub governors: Vec<u32>,
-    pub paths: Vec<Path>,
+    pub keypoints: KeypointTable,
+    pub paths: PathTable,
 }
 
 /// How much was traced at some moment.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Mark {
-    keypoints: usize,
-    governors: usize,
-    paths: usize,
+    keypoints: u32,
+    paths: u32,
 }
 
 impl Traced {
@@ -46,67 +43,55 @@ impl Traced {
     pub fn with_room(n_edges: usize, n_holes: usize) -> Self {
         let n_keypoints = 2 * (n_edges + n_holes);
         Self {
-            keypoints: Vec::with_capacity(n_keypoints),
-            governors: Vec::with_capacity(3 * n_keypoints),
-            paths: Vec::with_capacity(n_keypoints + n_holes),
+            keypoints: KeypointTable::with_room(n_keypoints),
+            paths: PathTable::with_room(n_keypoints + n_holes),
         }
     }
 
     pub fn mark(&self) -> Mark {
-        Mark {
-            keypoints: self.keypoints.len(),
-            governors: self.governors.len(),
-            paths: self.paths.len(),
-        }
+        Mark { keypoints: self.keypoints.len(), paths: self.paths.len() }
     }
 
     /// Keypoints traced since.
     pub fn since(&self, mark: Mark) -> usize {
-        self.keypoints.len() - mark.keypoints
+        (self.keypoints.len() - mark.keypoints) as usize
     }
 
     /// Forgets what was traced since.
     pub fn go_back(&mut self, mark: Mark) {
         self.keypoints.truncate(mark.keypoints);
-        self.governors.truncate(mark.governors);
         self.paths.truncate(mark.paths);
-    }
-
-    /// Makes room for about that many paths.
-    pub fn reserve(&mut self, n_paths: usize) {
-        // One keypoint for each path and three governors for each, and some more.
-        let room = n_paths + n_paths / 16;
-        self.keypoints.reserve(room);
-        self.governors.reserve(3 * room);
-        self.paths.reserve(room);
     }
 
     /// Whether a keypoint has these governors, from the smallest one on.
     pub fn has_governors(&self, keypoint: u32, list: &[Site]) -> bool {
-        let own = axis::governors(&self.keypoints, &self.governors, keypoint);
+        let own = self.keypoints.governors(keypoint);
         own.len() == list.len() && own.iter().zip(list).all(|(&a, b)| a == b.0)
     }
 
     /// Governors of a keypoint, from the smallest one on.
     pub fn governors_of(&self, keypoint: u32) -> Vec<Site> {
-        axis::governors(&self.keypoints, &self.governors, keypoint)
-            .iter()
-            .copied()
-            .map(Site)
-            .collect()
+        self.keypoints.governors(keypoint).iter().copied().map(Site).collect()
     }
 
     /// Adds a keypoint with its governors, from the smallest one on.
     #[inline]
     pub fn add(&mut self, position: Point, radius: f64, kind: KeypointKind, list: &[Site]) -> u32 {
-        let number = self.keypoints.len() as u32;
-        let first = self.governors.len() as u32;
-        match *list {
-            [a, b, c] => self.governors.extend_from_slice(&[a.0, b.0, c.0]),
-            _ => self.governors.extend(list.iter().map(|s| s.0)),
-        }
-        self.keypoints.push(Keypoint::new(position, radius, kind, first));
+        let number = self.keypoints.len();
+        let keypoint = Keypoint { position, radius, kind };
+        self.keypoints.push(&keypoint, list.iter().map(|site| site.0));
         number
+    }
+
+    /// Adds a path that starts at a keypoint traced already.
+    #[inline]
+    pub fn add_path(&mut self, path: &Path) {
+        self.paths.push(path, &self.keypoints);
+    }
+
+    /// A path.
+    pub fn path(&self, path: u32) -> Path {
+        self.paths.at(path, &self.keypoints)
     }
 
     /// Adds a keypoint as precisely as promised, with its governors from the smallest one on.
@@ -144,14 +129,14 @@ impl Traced {
 
     /// The disk of a keypoint.
     pub fn disk(&self, keypoint: u32) -> TouchingDisk {
-        let Keypoint { position: origin, radius, .. } = self.keypoints[keypoint as usize];
+        let Keypoint { position: origin, radius, .. } = self.keypoints.at(keypoint);
         let bound = PLACED * origin.x.abs().max(origin.y.abs()).max(radius);
         TouchingDisk { origin, centre: Point::default(), radius, bound }
     }
 
     /// Where a path starts that leaves a keypoint, which these sites define if it is no end.
     pub fn start(&self, keypoint: u32, triple: [Site; 3]) -> Start {
-        let Keypoint { position: centre, radius, kind, .. } = self.keypoints[keypoint as usize];
+        let Keypoint { position: centre, radius, kind, .. } = self.keypoints.at(keypoint);
         if kind == KeypointKind::End {
             return Start { centre, radius, doubt: 0.0, triple: None };
         }
@@ -159,56 +144,29 @@ impl Traced {
         Start { centre, radius, doubt, triple: Some(triple) }
     }
 
-    /// Adds keypoints of other tables.
-    pub fn copy_keypoints(&mut self, other: &Self, keypoints: Range<u32>) {
-        let (start, end) = (keypoints.start as usize, keypoints.end as usize);
-        let Some(first) = other.keypoints.get(start).map(Keypoint::first_governor) else { return };
-        let last = other.keypoints.get(end).map(Keypoint::first_governor);
-        let last = last.map_or(other.governors.len(), |last| last as usize);
-        let offset = self.governors.len() as u32;
-        self.governors.extend_from_slice(&other.governors[first as usize..last]);
-        let moved = |k: &Keypoint| k.with_governors(offset + (k.first_governor() - first));
-        self.keypoints.extend(other.keypoints[start..end].iter().map(moved));
-    }
-
     /// The axis, with the sites that govern something numbered in boundary order.
     pub fn finish(mut self, domain: &Domain, watch: &Watch<'_>) -> Result<MedialAxis, EngineError> {
         watch.check()?;
-        self.keypoints.shrink_to_fit();
-        self.governors.shrink_to_fit();
-        self.paths.shrink_to_fit();
-        let number = Numbers::new(2 * domain.edges().len(), &self.governors);
-        for site in &mut self.governors {
-            *site = number.of(*site);
-        }
-        for path in &mut self.paths {
-            path.left = number.of(path.left);
-            path.right = number.of(path.right);
-        }
+        self.keypoints.shrink();
+        self.paths.shrink();
+        let number = Numbers::new(2 * domain.edges().len(), self.keypoints.all_governors());
+        self.keypoints.renumber(|site| number.of(site));
+        self.paths.renumber(|site| number.of(site));
         let sites = site_table(domain, &number)?;
         drop(number);
-        axis_of(sites, self.keypoints, self.governors, self.paths)
+        axis_of(sites, self.keypoints, self.paths)
     }
 }
 
 /// The axis with these tables.
 pub(super) fn axis_of(
     sites: SiteTable,
-    keypoints: Vec<Keypoint>,
-    governors: Vec<u32>,
-    paths: Vec<Path>,
+    keypoints: KeypointTable,
+    paths: PathTable,
 ) -> Result<MedialAxis, EngineError> {
-    MedialAxis::from_tables(
-        Engine::PathTracing,
-        Side::Interior,
-        Accuracy::Exact,
-        true,
-        sites,
-        keypoints,
-        governors,
-        paths,
-    )
-    .ok_or(EngineError::Internal { stage: "numbering sites", place: Point::default() })
+    let (engine, side, accuracy) = (Engine::PathTracing, Side::Interior, Accuracy::Exact);
+    MedialAxis::from_tables(engine, side, accuracy, true, sites, keypoints, paths)
+        .ok_or(EngineError::Internal { stage: "numbering sites", place: Point::default() })
 }
 
 /// The table of the sites that have a new number.

@@ -65,7 +65,7 @@ impl<'a> Hand<'a> {
         for passed in &search.passed {
             let to = self.traced.add_transition(self.domain, passed)?;
             let Passed { right, left, .. } = *passed;
-            self.traced.paths.push(path(from, to, right, left));
+            self.traced.add_path(&path(from, to, right, left));
             from = to;
         }
         Ok(Arrival { from, right: last_right, left: last_left, found })
@@ -98,8 +98,9 @@ impl<'a> Hand<'a> {
 
     /// What a keypoint with these openings is.
     pub fn set_kind(&mut self, keypoint: u32, n_openings: usize) {
-        self.traced.keypoints[keypoint as usize].kind =
-            if n_openings == 2 { KeypointKind::Transition } else { KeypointKind::Junction };
+        let transition = n_openings == 2;
+        let kind = if transition { KeypointKind::Transition } else { KeypointKind::Junction };
+        self.traced.keypoints.set_kind(keypoint, kind);
     }
 
     /// The start of the path in the convex corner at the start of an edge, and its governors.
@@ -132,8 +133,20 @@ pub(super) fn from_least(list: &[Site]) -> Contacts {
     if let [a, b, c] = *list {
         return Contacts::from_slice(&three_from_least([a, b, c]));
     }
+    if let [a, b, c, d] = *list {
+        let turned = match [a, b, c, d].into_iter().min() {
+            least if least == Some(a) => [a, b, c, d],
+            least if least == Some(b) => [b, c, d, a],
+            least if least == Some(c) => [c, d, a, b],
+            _ => [d, a, b, c],
+        };
+        return Contacts::from_slice(&turned);
+    }
     let least = (0..list.len()).min_by_key(|&k| list[k]).unwrap_or(0);
-    list[least..].iter().chain(&list[..least]).copied().collect()
+    let (mut from_least, (end, start)) = (Contacts::new(), list.split_at(least));
+    from_least.extend_from_slice(start);
+    from_least.extend_from_slice(end);
+    from_least
 }
 
 /// The same of three.

@@ -1,28 +1,38 @@
 //! New numbers for some of many, in their order.
 
-/// A number of nothing that is marked.
-const NONE: u32 = u32::MAX;
+/// Numbers in a block; less than `UNMARKED`.
+const BLOCK: usize = 128;
+
+const UNMARKED: u8 = u8::MAX;
 
 /// Which numbers below a bound are marked, and how many marked ones are less than each of them.
 pub(super) struct Numbers {
-    numbers: Vec<u32>,
+    /// For each number how many marked ones there are before it in its block, or [`UNMARKED`].
+    within: Vec<u8>,
+    /// How many there are before each block.
+    before: Vec<u32>,
     len: u32,
 }
 
 impl Numbers {
     /// Marks these numbers, all less than `bound`.
-    pub fn new(bound: usize, marked: &[u32]) -> Self {
-        let mut numbers = vec![0; bound];
-        for &k in marked {
-            numbers[k as usize] = 1;
-        }
+    pub fn new(bound: usize, marked: impl Iterator<Item = u32>) -> Self {
+        let mut within = vec![UNMARKED; bound];
+        marked.for_each(|k| within[k as usize] = 0);
+        let mut before = Vec::with_capacity(bound.div_ceil(BLOCK));
         let mut len = 0;
-        for number in &mut numbers {
-            let next = len + *number;
-            *number = if *number == 0 { NONE } else { len };
-            len = next;
+        for block in within.chunks_mut(BLOCK) {
+            before.push(len);
+            let mut count = 0;
+            for number in block {
+                if *number != UNMARKED {
+                    *number = count;
+                    count += 1;
+                }
+            }
+            len += u32::from(count);
         }
-        Self { numbers, len }
+        Self { within, before, len }
     }
 
     /// How many are marked.
@@ -33,13 +43,13 @@ impl Numbers {
     /// How many marked numbers are less than this marked one.
     #[inline]
     pub fn of(&self, k: u32) -> u32 {
-        self.numbers[k as usize]
+        self.before[k as usize / BLOCK] + u32::from(self.within[k as usize])
     }
 
     /// Whether a number is marked.
     #[inline]
     pub fn has(&self, k: u32) -> bool {
-        self.numbers[k as usize] != NONE
+        self.within[k as usize] != UNMARKED
     }
 }
 
@@ -49,12 +59,18 @@ mod tests {
 
     #[test]
     fn marked_numbers_are_counted_in_their_order() {
-        let marked = [130, 0, 63, 64, 63, 199];
-        let numbers = Numbers::new(200, &marked);
+        let marked = [130, 0, 127, 128, 63, 64, 63, 199];
+        let numbers = Numbers::new(200, marked.into_iter());
         let all = (0..200).filter(|&k| numbers.has(k));
-        assert_eq!(all.collect::<Vec<u32>>(), [0, 63, 64, 130, 199]);
-        assert_eq!([0, 63, 64, 130, 199].map(|k| numbers.of(k)), [0, 1, 2, 3, 4]);
-        assert_eq!(numbers.len(), 5);
-        assert_eq!(Numbers::new(0, &[]).len(), 0);
+        assert_eq!(all.collect::<Vec<u32>>(), [0, 63, 64, 127, 128, 130, 199]);
+        assert_eq!([0, 63, 64, 127, 128, 130, 199].map(|k| numbers.of(k)), [0, 1, 2, 3, 4, 5, 6]);
+        assert_eq!(numbers.len(), 7);
+        assert_eq!(Numbers::new(0, std::iter::empty()).len(), 0);
+    }
+
+    #[test]
+    fn a_block_may_be_full() {
+        let numbers = Numbers::new(1000, 0..1000);
+        assert!((0..1000).all(|k| numbers.of(k) == k));
     }
 }

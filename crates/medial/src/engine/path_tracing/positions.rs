@@ -5,7 +5,9 @@
 //! margin. Where the bound of what is computed in twice the precision of doubles ([`super::refine`])
 //! is too large, the exact disk is evaluated instead.
 
-use super::contacts::follows;
+use smallvec::SmallVec;
+
+use super::contacts::{Contacts, follows};
 use super::refine::refined;
 use super::search::Start;
 use crate::domain::{Domain, Site};
@@ -90,7 +92,7 @@ fn best_triple(domain: &Domain, list: &[Site], disk: &TouchingDisk) -> Option<[S
     let least = (0..n).min_by_key(|&k| list[k])?;
     let at = |k: usize| list[(least + k) % n];
     // Contact runs, each as its first and last site.
-    let mut runs: Vec<(Site, Site)> = Vec::new();
+    let mut runs: SmallVec<[(Site, Site); 8]> = SmallVec::new();
     let first = (0..n).find(|&k| !follows(domain, at((k + n - 1) % n), at(k)))?;
     for k in first..first + n {
         let site = at(k % n);
@@ -110,8 +112,8 @@ fn best_triple(domain: &Domain, list: &[Site], disk: &TouchingDisk) -> Option<[S
         let second = if straight { Site::corner(run.1.index()) } else { run.1 };
         return Some([run.0, second, other]);
     }
-    let sites: Vec<Site> = runs.iter().map(|r| r.0.min(r.1)).collect();
-    let normals: Vec<Point> = sites.iter().map(|&s| normal(domain, s, disk)).collect();
+    let sites: Contacts = runs.iter().map(|r| r.0.min(r.1)).collect();
+    let normals: SmallVec<[Point; 8]> = sites.iter().map(|&s| normal(domain, s, disk)).collect();
     let mut best: Option<(f64, [usize; 3])> = None;
     let mut weigh = |i: usize, j: usize, k: usize| {
         let spread = (normals[j] - normals[i]).cross(normals[k] - normals[i]);

@@ -8,7 +8,7 @@ use std::sync::OnceLock;
 
 use smallvec::SmallVec;
 
-use super::holes::{Ahead, Hole, Holes};
+use super::holes::{Ahead, Holes, point};
 use super::search::{Found, Gap, Start};
 use crate::domain::{Domain, Site};
 use crate::geom::{BoundsTree, Governor, Point, Rect, TouchingDisk, Visitor};
@@ -28,8 +28,8 @@ impl Rings {
         Some(Self { holes, hidden: OnceLock::new() })
     }
 
-    fn hidden(&self) -> &HiddenRings {
-        self.hidden.get_or_init(|| HiddenRings::new(&self.holes))
+    fn hidden(&self, domain: &Domain) -> &HiddenRings {
+        self.hidden.get_or_init(|| HiddenRings::new(domain, &self.holes))
     }
 
     /// Corners of rings that may lie in the pocket of a path. Generous: doubles with a margin.
@@ -48,8 +48,8 @@ impl Rings {
             suspects.extend(lowest(domain, walk));
             true
         };
-        if !self.holes.each(&pockets, &mut suspect) {
-            self.hidden().each(&pockets, &mut suspect);
+        if !self.holes.each(domain, &pockets, &mut suspect) {
+            self.hidden(domain).each(domain, &pockets, &mut suspect);
         }
         suspects
     }
@@ -68,8 +68,8 @@ impl Rings {
             any = true;
             false
         };
-        if !self.holes.each(&pockets, &mut suspect) {
-            self.hidden().each(&pockets, &mut suspect);
+        if !self.holes.each(domain, &pockets, &mut suspect) {
+            self.hidden(domain).each(domain, &pockets, &mut suspect);
         }
         any
     }
@@ -86,30 +86,31 @@ fn lowest(domain: &Domain, walk: u32) -> Option<Site> {
 /// A tree over one point of every hole, wherever they are.
 #[derive(Debug)]
 struct HiddenRings {
-    /// Sorted along a space-filling curve.
-    holes: Vec<Hole>,
+    /// Their walks, sorted along a space-filling curve.
+    walks: Vec<u32>,
     tree: BoundsTree,
 }
 
 impl HiddenRings {
-    fn new(holes: &Holes) -> Self {
-        let mut holes = holes.all().to_vec();
-        let bounds = holes.iter().fold(Rect::EMPTY, |all, hole| all.with(hole.at));
+    fn new(domain: &Domain, holes: &Holes) -> Self {
+        let mut walks: Vec<u32> = holes.all().iter().map(|hole| hole.walk).collect();
+        let at = |walk: u32| point(domain, walk);
+        let bounds = walks.iter().fold(Rect::EMPTY, |all, &walk| all.with(at(walk)));
         let size =
             (bounds.max - bounds.min).x.max((bounds.max - bounds.min).y).max(f64::MIN_POSITIVE);
-        holes.sort_by_key(|hole| {
+        walks.sort_by_key(|&walk| {
             let cell = |v: f64| (v / size * f64::from(1 << 16)) as u32;
-            let place = hole.at - bounds.min;
-            (interleave(cell(place.x), cell(place.y)), hole.walk)
+            let place = at(walk) - bounds.min;
+            (interleave(cell(place.x), cell(place.y)), walk)
         });
-        let tree =
-            BoundsTree::new(0, holes.len() as u32, |k| Rect::EMPTY.with(holes[k as usize].at));
-        Self { holes, tree }
+        let bounds = |k: u32| Rect::EMPTY.with(at(walks[k as usize]));
+        let tree = BoundsTree::new(0, walks.len() as u32, bounds);
+        Self { walks, tree }
     }
 
     /// As [`Holes::each`], however long it takes.
-    fn each(&self, pockets: &Pockets, suspect: &mut dyn FnMut(u32) -> bool) {
-        self.tree.visit(&mut Near { rings: self, pockets, suspect, done: false });
+    fn each(&self, domain: &Domain, pockets: &Pockets, suspect: &mut dyn FnMut(u32) -> bool) {
+        self.tree.visit(&mut Near { domain, rings: self, pockets, suspect, done: false });
     }
 }
 
@@ -197,6 +198,7 @@ impl Pockets {
 
 /// The walks of holes that may lie in one of some pockets.
 struct Near<'q> {
+    domain: &'q Domain,
     rings: &'q HiddenRings,
     pockets: &'q Pockets,
     suspect: &'q mut dyn FnMut(u32) -> bool,
@@ -209,8 +211,8 @@ impl Visitor for Near<'_> {
     }
 
     fn item(&mut self, item: u32) {
-        let Hole { at, walk, .. } = self.rings.holes[item as usize];
-        if !self.done && self.pockets.may_hold(at, walk) {
+        let walk = self.rings.walks[item as usize];
+        if !self.done && self.pockets.may_hold(point(self.domain, walk), walk) {
             self.done = !(self.suspect)(walk);
         }
     }

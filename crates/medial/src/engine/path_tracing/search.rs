@@ -184,6 +184,8 @@ pub(super) struct Search<'a> {
     pub tie: Option<(Site, Site)>,
     /// Edges beyond convex corners that a path would have met before its last piece began.
     pub behind: Vec<u32>,
+    /// Whether the proposed end of a path was made by the holes ahead of it.
+    pub from_holes: bool,
     /// What was tried for the last path, for those who watch.
     pub tried: Vec<Candidate>,
     pub watch: Watch<'a>,
@@ -220,6 +222,7 @@ impl<'a> Search<'a> {
             link: (Site(0), Site(0)),
             tie: None,
             behind: Vec::new(),
+            from_holes: false,
             tried: Vec::new(),
             watch,
         }

@@ -59,9 +59,9 @@ impl Iterator for Steps<'_> {
             }
             Ok(true) => {
                 let traced = &self.tracer.hand.traced;
-                let path = *traced.paths.last()?;
+                let path = traced.path(traced.paths.len().checked_sub(1)?);
                 let disk = |k: u32| {
-                    let keypoint = &traced.keypoints[k as usize];
+                    let keypoint = traced.keypoints.at(k);
                     (keypoint.position, keypoint.radius)
                 };
                 let search = self.tracer.hand.search.as_ref();
@@ -72,7 +72,7 @@ impl Iterator for Steps<'_> {
                     left: Site(path.left),
                     governors: traced.governors_of(path.to),
                     candidates: search.map_or_else(Vec::new, |s| s.tried.clone()),
-                    closes_loop: (path.to as usize) < known,
+                    closes_loop: path.to < known,
                 }))
             }
         }

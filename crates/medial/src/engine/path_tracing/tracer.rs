@@ -1,28 +1,13 @@
 use std::ops::Range;
 
 use super::finish::{Mark, Traced};
-use super::gaps::Gaps;
-use super::hand::{Arrival, Hand, from_least, openings, path};
+use super::gaps::{Gaps, Open};
+use super::hand::{Arrival, Hand, from_least, openings, path, three_from_least};
 use super::search::{Found, Search};
 use crate::axis::MedialAxis;
 use crate::domain::{Corner, Domain, Site};
 use crate::engine::EngineError;
 use crate::engine::watch::Watch;
-
-/// A path that waits to be traced.
-#[derive(Clone, Copy, Debug)]
-struct Pending {
-    /// Keypoint where it starts.
-    keypoint: u32,
-    right: Site,
-    left: Site,
-    /// Number among the open gaps, where loops may close; else [`NONE`].
-    gap: u32,
-    /// Sites that define the disk at the start; none in a convex corner.
-    triple: [Site; 3],
-}
-
-const NONE: u32 = u32::MAX;
 
 /// How a polygon is traced; each way takes longer than the one before and trusts less.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -61,9 +46,10 @@ pub(super) struct Tracer<'a> {
     pub hand: Hand<'a>,
     /// Convex corners where components of the current polygon start.
     seeds: Vec<u32>,
-    stack: Vec<Pending>,
-    /// Open gaps by their governors; `None` where no loop can close.
-    gaps: Option<Gaps>,
+    /// Paths that wait to be traced.
+    gaps: Gaps,
+    /// Sites that define the disks of keypoints with open gaps, where these are not their governors.
+    triples: Vec<(u32, [Site; 3])>,
     /// For each walk of a polygon with holes whether it governs anything.
     met: Vec<bool>,
     /// Number of the polygon's first walk.
@@ -122,8 +108,8 @@ impl<'a> Tracer<'a> {
             current: 0,
             hand,
             seeds: Vec::new(),
-            stack: Vec::new(),
-            gaps: None,
+            gaps: Gaps::default(),
+            triples: Vec::new(),
             met: Vec::new(),
             first_walk: 0,
             most: 0,
@@ -136,23 +122,16 @@ impl<'a> Tracer<'a> {
     /// Traces on to the next keypoint that is no plain transition; false when all is done.
     pub fn step(&mut self) -> Result<bool, EngineError> {
         loop {
-            while let Some(pending) = self.stack.pop() {
-                let taken = match &mut self.gaps {
-                    Some(gaps) if pending.gap != NONE => gaps.take(pending.gap),
-                    _ => true,
-                };
-                if taken {
-                    match self.trace(pending) {
-                        Ok(()) => return Ok(true),
-                        Err(error) => self.start_again(error)?,
-                    }
+            while let Some(gap) = self.gaps.pop() {
+                match self.trace(gap) {
+                    Ok(()) => return Ok(true),
+                    Err(error) => self.start_again(error)?,
                 }
             }
             if let Some(corner) = self.seeds.pop() {
                 let keypoint = self.hand.add_end(corner);
                 let (right, left, _) = self.hand.corner(corner);
-                let triple = [right, left, left];
-                self.stack.push(Pending { keypoint, right, left, gap: NONE, triple });
+                self.gaps.push(keypoint, right, left);
                 continue;
             }
             if self.met.contains(&false) {
@@ -173,7 +152,6 @@ impl<'a> Tracer<'a> {
     fn start_again(&mut self, error: EngineError) -> Result<(), EngineError> {
         self.care = self.care.after(&error).ok_or(error)?;
         self.hand.traced.go_back(self.before);
-        self.stack.clear();
         self.seeds.clear();
         self.met.clear();
         let Some(walks) = self.polygons.get(self.current - 1).cloned() else { return Err(error) };
@@ -187,7 +165,8 @@ impl<'a> Tracer<'a> {
         let all = &domain.walks()[walks.clone()];
         let loops = all.iter().any(|w| w.hole);
         let n_edges: u32 = all.iter().map(|w| w.len).sum();
-        self.gaps = loops.then(|| Gaps::new(2 * all[0].first, 2 * n_edges));
+        self.gaps.reset(2 * all[0].first, 2 * n_edges, loops);
+        self.triples.clear();
         self.seeds.extend(walks.clone().rev().filter_map(|walk| seed(domain, walk)));
         self.met.clear();
         if loops {
@@ -202,28 +181,23 @@ impl<'a> Tracer<'a> {
         self.hand.search = Some(search);
     }
 
-    fn trace(&mut self, pending: Pending) -> Result<(), EngineError> {
-        let Pending { keypoint, right, left, triple, .. } = pending;
+    fn trace(&mut self, gap: Open) -> Result<(), EngineError> {
+        let Open { keypoint, right, left, .. } = gap;
+        let triple = self.triple(keypoint);
         let start = self.hand.traced.start(keypoint, triple);
         let Arrival { from, right, left, found } =
-            self.hand.follow(keypoint, right, left, start, self.gaps.as_ref())?;
+            self.hand.follow(keypoint, right, left, start, self.gaps.closing())?;
         let to = match found {
             Found::Corner(corner) => self.hand.add_end(corner),
             Found::Known(to) => {
-                if let Some(gaps) = &mut self.gaps {
-                    gaps.close(left, right, |k| k == to);
-                }
+                self.gaps.close(left, right, |k| k == to);
                 to
             }
             Found::Disk { disk, triple, contacts, fixed } => {
                 let list = from_least(&contacts);
                 // The path seen from its other end has its governors the other way round.
                 let traced = &self.hand.traced;
-                let known = self
-                    .gaps
-                    .as_mut()
-                    .and_then(|gaps| gaps.close(left, right, |k| traced.has_governors(k, &list)));
-                match known {
+                match self.gaps.close(left, right, |k| traced.has_governors(k, &list)) {
                     Some(to) => to,
                     None => {
                         let to = self.hand.add_keypoint(&disk, triple, &list, fixed)?;
@@ -235,12 +209,26 @@ impl<'a> Tracer<'a> {
                 }
             }
         };
-        self.hand.traced.paths.push(path(from, to, right, left));
+        self.hand.traced.add_path(&path(from, to, right, left));
         if self.hand.traced.since(self.before) > self.most {
             let place = start.centre;
             return Err(EngineError::Internal { stage: "counting keypoints", place });
         }
         Ok(())
+    }
+
+    /// Sites that define the disk of a keypoint from which a path leaves, which was the last to wait.
+    fn triple(&mut self, keypoint: u32) -> [Site; 3] {
+        // What was noted since then is not needed any more.
+        while self.triples.last().is_some_and(|(noted, _)| *noted > keypoint) {
+            self.triples.pop();
+        }
+        match (self.triples.last(), self.hand.traced.keypoints.governors(keypoint)) {
+            (Some((noted, triple)), _) if *noted == keypoint => *triple,
+            (_, &[a, b, c]) => [a, b, c].map(Site),
+            // In a convex corner none is needed.
+            (_, list) => [0, 0, 0].map(|k| Site(list[k])),
+        }
     }
 
     /// Puts the paths that leave a new keypoint onto the stack: all but the one between `right` and
@@ -253,7 +241,7 @@ impl<'a> Tracer<'a> {
         right: Site,
         left: Site,
     ) -> Option<()> {
-        if self.gaps.is_some() {
+        if self.gaps.closing().is_some() {
             for site in list {
                 let walk = self.hand.domain.edge(site.index()).walk;
                 self.met[(walk - self.first_walk) as usize] = true;
@@ -264,8 +252,10 @@ impl<'a> Tracer<'a> {
         // What follows the arrival is traced first.
         let (before, after) = (&openings[..arrived], &openings[arrived + 1..]);
         for &(right, left) in before.iter().rev().chain(after.iter().rev()) {
-            let gap = self.gaps.as_mut().map_or(NONE, |gaps| gaps.open(keypoint, right, left));
-            self.stack.push(Pending { keypoint, right, left, gap, triple });
+            self.gaps.push(keypoint, right, left);
+        }
+        if three_from_least(triple)[..] != *list {
+            self.triples.push((keypoint, triple));
         }
         self.hand.set_kind(keypoint, openings.len());
         Some(())
@@ -274,8 +264,8 @@ impl<'a> Tracer<'a> {
     /// The axis: every position computed as precisely as promised.
     pub fn finish(self) -> Result<MedialAxis, EngineError> {
         // What is not needed any more makes room for the answer.
-        let Self { hand: Hand { domain, traced, watch, search, .. }, gaps, stack, .. } = self;
-        drop((search, gaps, stack));
+        let Self { hand: Hand { domain, traced, watch, search, .. }, gaps, triples, .. } = self;
+        drop((search, gaps, triples));
         traced.finish(domain, &watch)
     }
 }

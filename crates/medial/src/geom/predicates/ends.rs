@@ -67,6 +67,9 @@ pub fn two_ends(right: Leaving, left: Leaving) -> First {
     let (Leaving::Edge(f, g) | Leaving::Corner(f, g)) = left;
     let v = if matches!(right, Leaving::Edge(..)) { b } else { a };
     let w = if matches!(left, Leaving::Edge(..)) { f } else { g };
+    if let Some(order) = axis_parallel(right, left) {
+        return first(order);
+    }
     let sign = match integers(v, [a, b, f, g, w], 61) {
         // Directions stay below 2^62, their products below 2^125, the sums of those below 2^251.
         Some([a, b, f, g, q]) => {
@@ -93,11 +96,43 @@ pub fn two_ends(right: Leaving, left: Leaving) -> First {
         }
         .sign(right, left)
     });
+    first(sign.unwrap_or(Ordering::Equal))
+}
+
+/// `Less` if the left governor leaves first.
+fn first(sign: Ordering) -> First {
     match sign {
-        Some(Ordering::Greater) => First::Right,
-        Some(Ordering::Less) => First::Left,
-        _ => First::Both,
+        Ordering::Greater => First::Right,
+        Ordering::Less => First::Left,
+        Ordering::Equal => First::Both,
     }
+}
+
+/// The answer for edges parallel to one axis, which takes comparisons of coordinates only.
+#[inline]
+fn axis_parallel(right: Leaving, left: Leaving) -> Option<Ordering> {
+    let (Leaving::Edge(a, b) | Leaving::Corner(a, b)) = right;
+    let (Leaving::Edge(f, g) | Leaving::Corner(f, g)) = left;
+    // From here on x runs along the edges: a mirror image if that was y.
+    let mirrored = a.y != b.y || f.y != g.y;
+    if mirrored && (a.x != b.x || f.x != g.x) {
+        return None;
+    }
+    let of = |p: Point| if mirrored { (p.y, p.x) } else { (p.x, p.y) };
+    let sign = |p: f64, q: f64| i32::from(q > p) - i32::from(q < p);
+    let [(ax, ay), (bx, _), (fx, _), (gx, gy)] = [of(a), of(b), of(f), of(g)];
+    let (d, e) = (sign(ax, bx), sign(fx, gx));
+    let answer = match (right, left) {
+        // d·q
+        (Leaving::Edge(..), Leaving::Edge(..)) => d * sign(bx, fx),
+        // (d·q)(e·p) + (e·q)(d·p), where p is q turned: both products have the same sign.
+        (Leaving::Corner(..), Leaving::Corner(..)) => {
+            let answer = -d * e * sign(ax, gx) * sign(ay, gy);
+            if mirrored { -answer } else { answer }
+        }
+        _ => return None,
+    };
+    Some(answer.cmp(&0))
 }
 
 /// The products of the three vectors that the forms are made of.

@@ -5,10 +5,10 @@ use std::sync::atomic::{AtomicU32, AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 use std::thread;
 
-use super::super::finish::{Traced, axis_of, site_record};
+use super::super::finish::{axis_of, site_record};
 use super::replay::Piece;
 use super::worker::{End, Share};
-use crate::axis::{self, MedialAxis, Path, SiteTable};
+use crate::axis::{self, KeypointTable, MedialAxis, Path, PathTable, SiteTable};
 use crate::domain::{Domain, Site};
 use crate::engine::EngineError;
 use crate::engine::watch::Watch;
@@ -27,15 +27,19 @@ pub(super) fn gather(
     let n_sites = 2 * domain.edges().len();
     let numbers: Vec<AtomicU32> = (0..n_sites).map(|_| AtomicU32::new(NONE)).collect();
     let groups = each(threads, split(pieces, &shares, threads), |group| {
-        let mut traced = Traced::default();
-        traced.reserve(shares.iter().map(|s| s.traced.paths.len()).sum::<usize>() / threads);
+        let mut copied = Group::default();
+        let room = shares.iter().map(|s| s.traced.paths.len()).sum::<u32>() as usize / threads;
+        // One keypoint for each path, and some more.
+        let room = room + room / 16;
+        copied.keypoints.reserve(room);
+        copied.paths.reserve(room);
         for piece in group {
-            copy(&mut traced, piece, &shares);
+            copied.copy(piece, &shares);
         }
-        for &site in &traced.governors {
+        for site in copied.keypoints.all_governors() {
             numbers[site as usize].store(0, Ordering::Relaxed);
         }
-        traced
+        copied
     });
     watch.check()?;
     let governs = |sites: Range<u32>| {
@@ -64,31 +68,27 @@ pub(super) fn gather(
         lengths.scan(0, |sum, length| Some(std::mem::replace(sum, *sum + length) as u32)).collect()
     };
     let first_sites = starts(&mut sites.iter().map(Vec::len));
-    let first_governors = starts(&mut groups.iter().map(|group| group.governors.len()));
     let shift = step.trailing_zeros();
     let number = |site: u32| {
         first_sites[(site >> shift) as usize] + numbers[site as usize].load(Ordering::Relaxed)
     };
-    let groups = each(threads, groups.into_iter().zip(first_governors).collect(), |group| {
-        let (mut group, first_governor) = group;
-        for keypoint in &mut group.keypoints {
-            *keypoint = keypoint.with_governors(first_governor + keypoint.first_governor());
-        }
-        for site in &mut group.governors {
-            *site = number(*site);
-        }
+    let groups = each(threads, groups, |mut group| {
+        group.keypoints.renumber(number);
         for path in &mut group.paths {
             (path.left, path.right) = (number(path.left), number(path.right));
         }
         group
     });
     watch.check()?;
-    let (mut keypoints, mut governors, mut paths) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut keypoints, mut paths) = (KeypointTable::default(), Vec::new());
+    keypoints.reserve(groups.iter().map(|group| group.keypoints.len() as usize).sum());
     for group in groups {
-        keypoints.push(group.keypoints);
-        governors.push(group.governors);
+        keypoints.copy(&group.keypoints, 0..group.keypoints.len());
         paths.push(group.paths);
     }
+    let packed = each(threads, paths, |paths| PathTable::of(paths.into_iter(), &keypoints));
+    let mut paths = PathTable::with_room(packed.iter().map(|paths| paths.len() as usize).sum());
+    packed.iter().for_each(|some| paths.append(some));
     let n_sites = sites.iter().map(Vec::len).sum();
     let n_edges = domain.edges().len();
     let mut table = SiteTable::with_room(n_sites, n_edges, domain.walks().len());
@@ -96,12 +96,12 @@ pub(super) fn gather(
         table.push(&site).ok_or(EngineError::TooLarge { n_edges })?;
     }
     table.shrink();
-    axis_of(table, joined(keypoints), joined(governors), joined(paths)).map(Some)
+    axis_of(table, keypoints, paths).map(Some)
 }
 
 /// The pieces in as many groups of about the same size.
 fn split<'p>(pieces: &'p [Piece], shares: &[Share], groups: usize) -> Vec<&'p [Piece]> {
-    let total: usize = shares.iter().map(|share| share.traced.paths.len()).sum();
+    let total = shares.iter().map(|share| share.traced.paths.len() as usize).sum::<usize>();
     let mut split = Vec::with_capacity(groups);
     let (mut rest, mut seen) = (pieces, 0);
     for group in 1..groups {
@@ -121,59 +121,58 @@ fn split<'p>(pieces: &'p [Piece], shares: &[Share], groups: usize) -> Vec<&'p [P
     split
 }
 
-fn copy(all: &mut Traced, piece: &Piece, shares: &[Share]) {
-    let (way, from, to, first) = match *piece {
-        Piece::Keypoint(place) => {
-            let keypoints = place.keypoint..place.keypoint + 1;
-            return all.copy_keypoints(&shares[place.thread as usize].traced, keypoints);
-        }
-        Piece::Block { way, from, to, first } => (way, from, to, first),
-    };
-    let share = &shares[way.id.thread as usize];
-    let block = &share.blocks[way.id.block as usize];
-    let paths = &share.traced.paths[block.paths.start as usize..block.paths.end as usize];
-    let keypoints = block.keypoints.clone();
-    if let End::Beyond = block.end {
-        // What is not in the block is its beginning.
-        let number = |k: u32| {
-            if keypoints.contains(&k) { first + (k - keypoints.start) } else { from }
-        };
-        let renumbered = |p: &Path| Path { from: number(p.from), to: number(p.to), ..*p };
-        all.paths.extend(paths.iter().map(renumbered));
-        all.copy_keypoints(&share.traced, keypoints);
-        return;
-    }
-    let n = paths.len() as u32;
-    let at = |k: u32| match k {
-        0 => from,
-        k if k == n => to,
-        k => first + k - 1,
-    };
-    let renumbered = |p: &Path, k: u32| Path { from: at(k), to: at(k + 1), ..*p };
-    if way.backwards {
-        all.paths.extend(paths.iter().rev().zip(0..).map(|(p, k)| {
-            let Path { left, right, .. } = *p;
-            renumbered(&Path { left: right, right: left, ..*p }, k)
-        }));
-        for k in keypoints.rev() {
-            all.copy_keypoints(&share.traced, k..k + 1);
-        }
-    } else {
-        all.paths.extend(paths.iter().zip(0..).map(|(p, k)| renumbered(p, k)));
-        all.copy_keypoints(&share.traced, keypoints);
-    }
+/// A part of the result.
+#[derive(Default)]
+struct Group {
+    keypoints: KeypointTable,
+    /// Between keypoints by their numbers in the result.
+    paths: Vec<Path>,
 }
 
-/// One list of several.
-fn joined<T: Copy>(parts: Vec<Vec<T>>) -> Vec<T> {
-    let total: usize = parts.iter().map(Vec::len).sum();
-    let mut parts = parts.into_iter();
-    let mut all = parts.next().unwrap_or_default();
-    all.reserve_exact(total - all.len());
-    for part in parts {
-        all.extend_from_slice(&part);
+impl Group {
+    fn copy(&mut self, piece: &Piece, shares: &[Share]) {
+        let (way, from, to, first) = match *piece {
+            Piece::Keypoint(place) => {
+                let keypoints = place.keypoint..place.keypoint + 1;
+                let traced = &shares[place.thread as usize].traced;
+                return self.keypoints.copy(&traced.keypoints, keypoints);
+            }
+            Piece::Block { way, from, to, first } => (way, from, to, first),
+        };
+        let share = &shares[way.id.thread as usize];
+        let block = &share.blocks[way.id.block as usize];
+        let paths = block.paths.clone().map(|path| share.traced.path(path));
+        let keypoints = block.keypoints.clone();
+        if let End::Beyond = block.end {
+            // What is not in the block is its beginning.
+            let number = |k: u32| {
+                if keypoints.contains(&k) { first + (k - keypoints.start) } else { from }
+            };
+            let renumbered = |p: Path| Path { from: number(p.from), to: number(p.to), ..p };
+            self.paths.extend(paths.map(renumbered));
+            self.keypoints.copy(&share.traced.keypoints, keypoints);
+            return;
+        }
+        let n = paths.len() as u32;
+        let at = |k: u32| match k {
+            0 => from,
+            k if k == n => to,
+            k => first + k - 1,
+        };
+        let renumbered = |p: Path, k: u32| Path { from: at(k), to: at(k + 1), ..p };
+        if way.backwards {
+            self.paths.extend(paths.rev().zip(0..).map(|(p, k)| {
+                let Path { left, right, .. } = p;
+                renumbered(Path { left: right, right: left, ..p }, k)
+            }));
+            for k in keypoints.rev() {
+                self.keypoints.copy(&share.traced.keypoints, k..k + 1);
+            }
+        } else {
+            self.paths.extend(paths.zip(0..).map(|(p, k)| renumbered(p, k)));
+            self.keypoints.copy(&share.traced.keypoints, keypoints);
+        }
     }
-    all
 }
 
 /// Does some work for each item, on several threads if there are, and gives the results in order.

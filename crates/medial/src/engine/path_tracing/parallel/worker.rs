@@ -181,7 +181,7 @@ impl<'s, 'a> Worker<'s, 'a> {
 
     fn ends(&self) -> [u32; 2] {
         let Traced { keypoints, paths, .. } = &self.hand.traced;
-        [keypoints.len() as u32, paths.len() as u32]
+        [keypoints.len(), paths.len()]
     }
 
     /// Ends the current block with all that was traced since.
@@ -273,7 +273,7 @@ impl<'s, 'a> Worker<'s, 'a> {
                 // A transition of a path that goes on.
                 from = self.hand.add_keypoint(&disk, triple, &list, fixed)?;
                 self.hand.set_kind(from, 2);
-                self.hand.traced.paths.push(Path { to: from, ..last });
+                self.hand.traced.add_path(&Path { to: from, ..last });
                 (right, left) = if arrived == 0 { other } else { one };
                 start = next;
                 continue;
@@ -302,7 +302,7 @@ impl<'s, 'a> Worker<'s, 'a> {
 
     /// Fails where more was traced than there can be.
     fn count(&self, near: Start) -> Result<(), EngineError> {
-        if self.hand.traced.keypoints.len() > self.most {
+        if self.hand.traced.keypoints.len() as usize > self.most {
             let place = near.centre;
             return Err(EngineError::Internal { stage: "counting keypoints", place });
         }
@@ -311,7 +311,7 @@ impl<'s, 'a> Worker<'s, 'a> {
 
     /// Ends the current block with its last path and the transitions before it.
     fn end_link(&mut self, last: Path) {
-        self.hand.traced.paths.push(last);
+        self.hand.traced.add_path(&last);
         let [keypoints, paths] = self.ends();
         if let Some(block) = self.blocks.last_mut() {
             block.keypoints = keypoints - (paths - block.paths.start - 1)..keypoints;
@@ -375,7 +375,7 @@ impl<'s, 'a> Worker<'s, 'a> {
                     to
                 }
             };
-            self.hand.traced.paths.push(path(from, to, right, left));
+            self.hand.traced.add_path(&path(from, to, right, left));
             self.count(start)?;
             self.hand_on(polygon);
         }

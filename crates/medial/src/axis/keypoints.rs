@@ -1,0 +1,242 @@
+//! The keypoints of an axis with their governors: most have three, which are kept side by side.
+
+use std::ops::Range;
+
+use super::views::view;
+use super::{Keypoint, KeypointKind};
+use crate::geom::Point;
+
+/// What keeps the keypoints: 37 bytes each, and some more where there are more than three governors.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct KeypointTable {
+    /// Positions and radii.
+    disks: Vec<(Point, f64)>,
+    kinds: Vec<KeypointKind>,
+    /// The three governors; or two and [`TWO`]; or where in `more` they start, how many they are, and
+    /// [`MORE`].
+    lists: Vec<[u32; 3]>,
+    more: Vec<u32>,
+}
+
+/// More than the number of any site.
+const TWO: u32 = u32::MAX;
+const MORE: u32 = u32::MAX - 1;
+
+impl KeypointTable {
+    /// An empty table with room for some keypoints.
+    pub fn with_room(keypoints: usize) -> Self {
+        Self {
+            disks: Vec::with_capacity(keypoints),
+            kinds: Vec::with_capacity(keypoints),
+            lists: Vec::with_capacity(keypoints),
+            more: Vec::new(),
+        }
+    }
+
+    /// Makes room for some more keypoints.
+    pub fn reserve(&mut self, keypoints: usize) {
+        self.disks.reserve(keypoints);
+        self.kinds.reserve(keypoints);
+        self.lists.reserve(keypoints);
+    }
+
+    /// Gives back the room that was not needed.
+    pub fn shrink(&mut self) {
+        self.disks.shrink_to_fit();
+        self.kinds.shrink_to_fit();
+        self.lists.shrink_to_fit();
+        self.more.shrink_to_fit();
+    }
+
+    /// Adds a keypoint with its governors.
+    #[inline]
+    pub fn push(
+        &mut self,
+        keypoint: &Keypoint,
+        governors: impl ExactSizeIterator<Item = u32> + Clone,
+    ) {
+        let mut few = governors.clone();
+        let list = match (governors.len(), few.next(), few.next(), few.next()) {
+            (3, Some(a), Some(b), Some(c)) => [a, b, c],
+            (2, Some(a), Some(b), None) => [a, b, TWO],
+            (n, ..) => {
+                let first = self.more.len() as u32;
+                self.more.extend(governors);
+                [first, n as u32, MORE]
+            }
+        };
+        let Keypoint { position, radius, kind } = *keypoint;
+        self.disks.push((position, radius));
+        self.kinds.push(kind);
+        self.lists.push(list);
+    }
+
+    /// Adds keypoints of another table.
+    pub fn copy(&mut self, other: &Self, keypoints: Range<u32>) {
+        let range = keypoints.start as usize..keypoints.end as usize;
+        self.disks.extend_from_slice(&other.disks[range.clone()]);
+        self.kinds.extend_from_slice(&other.kinds[range.clone()]);
+        for list in &other.lists[range] {
+            self.lists.push(match *list {
+                [first, n, MORE] => {
+                    let start = self.more.len() as u32;
+                    self.more.extend_from_slice(&other.more[first as usize..][..n as usize]);
+                    [start, n, MORE]
+                }
+                list => list,
+            });
+        }
+    }
+
+    pub fn len(&self) -> u32 {
+        self.disks.len() as u32
+    }
+
+    /// Forgets all keypoints from this number on.
+    pub fn truncate(&mut self, len: u32) {
+        let len = len as usize;
+        let first = self.lists.get(len..).unwrap_or_default().iter().find(|list| list[2] == MORE);
+        self.more.truncate(first.map_or(self.more.len(), |list| list[0] as usize));
+        self.disks.truncate(len);
+        self.kinds.truncate(len);
+        self.lists.truncate(len);
+    }
+
+    pub fn at(&self, keypoint: u32) -> Keypoint {
+        let k = keypoint as usize;
+        let (position, radius) = self.disks[k];
+        Keypoint { position, radius, kind: self.kinds[k] }
+    }
+
+    /// Makes a keypoint one of another kind.
+    pub fn set_kind(&mut self, keypoint: u32, kind: KeypointKind) {
+        self.kinds[keypoint as usize] = kind;
+    }
+
+    /// Governors of a keypoint.
+    #[inline]
+    pub fn governors(&self, keypoint: u32) -> &[u32] {
+        match &self.lists[keypoint as usize] {
+            &[first, n, MORE] => &self.more[first as usize..][..n as usize],
+            [list @ .., TWO] => list,
+            list => list,
+        }
+    }
+
+    /// All governors of all keypoints.
+    pub fn all_governors(&self) -> impl Iterator<Item = u32> + '_ {
+        let few = self.lists.iter().flat_map(|list| match list {
+            [_, _, MORE] => &[][..],
+            [list @ .., TWO] => list,
+            list => list,
+        });
+        few.chain(&self.more).copied()
+    }
+
+    /// Whether all governors are less than a number.
+    pub fn governors_below(&self, bound: u32) -> bool {
+        self.all_governors().all(|g| g < bound)
+    }
+
+    /// Gives every governor another number.
+    pub fn renumber(&mut self, number: impl Fn(u32) -> u32) {
+        for list in &mut self.lists {
+            match list {
+                [_, _, MORE] => {}
+                [a, b, TWO] => (*a, *b) = (number(*a), number(*b)),
+                [a, b, c] => (*a, *b, *c) = (number(*a), number(*b), number(*c)),
+            }
+        }
+        for governor in &mut self.more {
+            *governor = number(*governor);
+        }
+    }
+}
+
+/// The keypoints of an axis, numbered from 0; a [`Keypoint`] is put together when it is asked for.
+///
+/// An axis keeps 37 bytes for each keypoint and its governors, where they are not more than three.
+#[derive(Clone, Copy)]
+pub struct Keypoints<'a>(pub(super) &'a KeypointTable);
+
+impl Keypoints<'_> {
+    /// How many there are.
+    #[must_use]
+    pub fn len(self) -> usize {
+        self.0.disks.len()
+    }
+
+    /// Keypoint number `number`, counted as [`Path`](super::Path) counts.
+    ///
+    /// # Panics
+    /// If the axis has no such keypoint.
+    #[must_use]
+    pub fn at(self, number: u32) -> Keypoint {
+        self.0.at(number)
+    }
+}
+
+view! {
+    Keypoints of Keypoint;
+    /// The keypoints of an axis, one after the other, by value.
+    KeypointsIter
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn keypoint(x: f64) -> Keypoint {
+        Keypoint { position: Point::new(x, -x), radius: x / 2.0, kind: KeypointKind::Junction }
+    }
+
+    /// Keypoints with that many governors each.
+    fn table(degrees: &[usize]) -> KeypointTable {
+        let mut table = KeypointTable::default();
+        for (k, &n) in degrees.iter().enumerate() {
+            let governors: Vec<u32> = (0..n as u32).map(|g| 10 * k as u32 + g).collect();
+            table.push(&keypoint(k as f64), governors.into_iter());
+        }
+        table
+    }
+
+    #[test]
+    fn lists_of_any_length_are_kept() {
+        let degrees = [3, 2, 5, 3, 0, 1, 4];
+        let table = table(&degrees);
+        for (k, &n) in degrees.iter().enumerate() {
+            let governors: Vec<u32> = (0..n as u32).map(|g| 10 * k as u32 + g).collect();
+            assert_eq!(table.governors(k as u32), governors);
+            assert_eq!(table.at(k as u32), keypoint(k as f64));
+        }
+        assert_eq!(table.all_governors().count(), degrees.iter().sum());
+        assert!(table.governors_below(64) && !table.governors_below(63));
+    }
+
+    #[test]
+    fn a_copy_of_some_is_the_table_of_these() {
+        let table = table(&[3, 2, 5, 3, 4, 6, 2]);
+        let mut some = KeypointTable::default();
+        some.copy(&table, 4..6);
+        some.copy(&table, 1..3);
+        let lists: Vec<&[u32]> = (0..4).map(|k| some.governors(k)).collect();
+        assert_eq!(lists, [4, 5, 1, 2].map(|k| table.governors(k)));
+    }
+
+    #[test]
+    fn what_is_forgotten_leaves_nothing() {
+        for len in 0..6 {
+            let mut longer = table(&[3, 4, 2, 5, 3, 6]);
+            longer.truncate(len);
+            assert_eq!(longer, table(&[3, 4, 2, 5, 3, 6][..len as usize]));
+        }
+    }
+
+    #[test]
+    fn every_governor_gets_its_new_number() {
+        let mut table = table(&[3, 2, 4]);
+        table.renumber(|g| 2 * g);
+        let lists: Vec<&[u32]> = (0..3).map(|k| table.governors(k)).collect();
+        assert_eq!(lists, [&[0, 2, 4][..], &[20, 22], &[40, 42, 44, 46]]);
+    }
+}
