@@ -566,7 +566,9 @@ impl Search<'_> {
         known: f64,
     ) -> Option<Proposal> {
         let mut reach = GROWTH * known;
-        while end.is_none_or(|e| 2.0 * reach < e.position) && reach.is_finite() {
+        // Beyond that the path would have left the polygon.
+        let farthest = LEAP * self.largest;
+        while end.is_none_or(|e| 2.0 * reach < e.position) && reach <= farthest {
             if self.watch.is_over() {
                 return None;
             }

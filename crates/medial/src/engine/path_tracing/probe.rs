@@ -84,7 +84,8 @@ impl Search<'_> {
         // third governor, or does not exist.
         let (mut clear, mut blocked) = (0.0, f64::INFINITY);
         for _ in 0..MOST_PROBES {
-            if is_near(reach) || !reach.is_finite() {
+            // Farther away the path would have left the polygon.
+            if is_near(reach) || reach > 4.0 * self.largest {
                 return best;
             }
             let at_limit = limit.filter(|l| l.1 <= reach);
