@@ -257,7 +257,14 @@ impl TouchingDisk {
                 if h <= 0.0 {
                     return None;
                 }
-                h / (1.0 - direction.cross(k))
+                let open = 1.0 - direction.cross(k);
+                if open.abs() < WIDE && cosine > 0.0 {
+                    // 1 - cos ψ / cos φ for edges turned by φ from their middle, and this one by ψ.
+                    let turn = |d: Point| sigma(d.cross(direction), d.dot(direction));
+                    h * (2.0 * (1.0 + cosine)).sqrt() / (turn(incoming) * turn(outgoing))
+                } else {
+                    h / open
+                }
             }
         };
         let sound = radius > 0.0 && radius.is_finite();
@@ -656,6 +663,25 @@ mod tests {
     fn the_end_of_an_edge_and_the_wall_opposite() {
         let g = [corner(1.0, 1.0), edge((3.0, 1.0), (1.0, 1.0)), edge((0.0, 0.0), (3.0, 0.0))];
         check(g, 1.0, 0.5, 0.5);
+    }
+
+    #[test]
+    fn the_disk_in_a_flat_corner_is_as_precise_as_the_directions_of_its_edges() {
+        use crate::geom::predicates::{Element, ExactDisk};
+        // Three edges of a polygon around (0, 1), each turned by 1e-5.
+        let at = |k: usize| {
+            let (sin, cos) = (1e-5 * k as f64).sin_cos();
+            (sin, 1.0 - cos)
+        };
+        let [a, b, c] = [0, 1, 2].map(|k| edge(at(k), at(k + 1)));
+        let of = |g: Governor| match g {
+            Governor::Edge { start, end, direction } => (Element::Edge(start, end), direction),
+            Governor::Corner(p) => (Element::Corner(p), p),
+        };
+        let [(e, incoming), (f, outgoing), (g, _)] = [a, b, c].map(of);
+        let disk = TouchingDisk::in_corner(b.anchor(), incoming, outgoing, &c).unwrap();
+        let (_, radius) = ExactDisk::new([e, f, g]).unwrap().approximate();
+        assert!((disk.radius / radius - 1.0).abs() < 1e-9, "{} {radius}", disk.radius);
     }
 
     #[test]

@@ -677,13 +677,16 @@ impl Search<'_> {
             } else {
                 let governors = self.domain.governors(triple);
                 let found = TouchingDisk::touching(&governors);
-                match found.map(|disk| self.sharper(&triple, disk)) {
+                let pinned = || self.pinned(&triple).map(|disk| TouchingDisk::from(&disk));
+                match found.map_or_else(pinned, |disk| Some(self.sharper(&triple, disk))) {
                     Some(disk) if disk.bound <= POOR * disk.radius => {
                         by_form = found == Some(disk);
                         disk
                     }
-                    Some(disk) => exact.insert(self.certified(&triple, &disk)).rounded(),
-                    None => exact.insert(self.exact(&triple)?).rounded(),
+                    Some(disk) if found.is_some() => {
+                        exact.insert(self.certified(&triple, &disk)).rounded()
+                    }
+                    _ => exact.insert(self.exact(&triple)?).rounded(),
                 }
             };
             let start = (&anchor, &self.passed[..]);
