@@ -137,6 +137,16 @@ fn sign(x: f64) -> f64 {
     if x < 0.0 { -1.0 } else { 1.0 }
 }
 
+/// How much faster than the radius a disk in the corner of two edges comes near a third one, for
+/// directions that differ little: `1 - cos ψ / cos φ` for edges turned by φ from their middle, and the
+/// third one by ψ.
+#[cold]
+#[inline(never)]
+fn narrow_opening([incoming, outgoing]: [Point; 2], direction: Point) -> f64 {
+    let turn = |d: Point| sigma(d.cross(direction), d.dot(direction));
+    turn(incoming) * turn(outgoing) / (2.0 * (1.0 + incoming.dot(outgoing))).sqrt()
+}
+
 /// Distance of `p` from the line of an edge; 0 at its ends, so no rounding loses the disk.
 fn height(p: Point, start: Point, end: Point, direction: Point) -> f64 {
     if p == start || p == end { 0.0 } else { direction.cross(p - start) }
@@ -258,13 +268,8 @@ impl TouchingDisk {
                     return None;
                 }
                 let open = 1.0 - direction.cross(k);
-                if open.abs() < WIDE && cosine > 0.0 {
-                    // 1 - cos ψ / cos φ for edges turned by φ from their middle, and this one by ψ.
-                    let turn = |d: Point| sigma(d.cross(direction), d.dot(direction));
-                    h * (2.0 * (1.0 + cosine)).sqrt() / (turn(incoming) * turn(outgoing))
-                } else {
-                    h / open
-                }
+                let narrow = open < WIDE && cosine > 0.0;
+                h / if narrow { narrow_opening([incoming, outgoing], direction) } else { open }
             }
         };
         let sound = radius > 0.0 && radius.is_finite();
