@@ -5,6 +5,25 @@ use crate::axis::MedialAxis;
 use crate::domain::{Corner, Domain, Site};
 use crate::geom::Point;
 
+/// Edges near one disk up to which all are looked at in a complete axis.
+///
+/// A matter of time only: what the other steps prove leaves no room for anything nearer.
+pub(super) const MOST_NEAR: usize = 256;
+
+/// Counts the edges that are looked at for one disk.
+pub(super) struct Crowd {
+    left: usize,
+}
+
+impl Crowd {
+    /// Takes note of one more edge; whether they are too many.
+    pub(super) fn is_over(&mut self) -> bool {
+        let over = self.left == 0;
+        self.left = self.left.saturating_sub(1);
+        over
+    }
+}
+
 /// What every check reads.
 pub(super) struct Context<'a> {
     pub(super) domain: &'a Domain,
@@ -71,6 +90,11 @@ impl<'a> Context<'a> {
     /// The governors of a keypoint as elements of the domain; `None` if one is unknown.
     pub(super) fn governors(&self, keypoint: u32) -> Option<Vec<Site>> {
         self.axis.governors(keypoint).iter().map(|&g| self.sites[g as usize]).collect()
+    }
+
+    /// The count for one more disk.
+    pub(super) fn crowd(&self) -> Crowd {
+        Crowd { left: if self.axis.complete { MOST_NEAR } else { usize::MAX } }
     }
 
     /// Closed distance of an edge from a point, in doubles.

@@ -95,14 +95,18 @@ impl One<'_, '_> {
         let margin = enclosure.bound + ROUNDING * (norm1(centre) + radius + context.size);
         let at = self.keypoint.position;
         let listed = |site: Site| listed_by[site.0 as usize] == number + 1;
-        let cut = |site| Defect::Cut { keypoint: number, by: Name::of(context.domain, site), at };
-        let missing = |site| Defect::MissingGovernor {
-            keypoint: number,
-            site: Name::of(context.domain, site),
-            at,
+        let cut =
+            |site| Some(Defect::Cut { keypoint: number, by: Name::of(context.domain, site), at });
+        let missing = |site| {
+            let site = Name::of(context.domain, site);
+            Some(Defect::MissingGovernor { keypoint: number, site, at })
         };
         let reach = radius + margin;
+        let mut crowd = context.crowd();
         let found = context.tree.near(centre, reach, |edge| {
+            if crowd.is_over() {
+                return ControlFlow::Break(None);
+            }
             let distance = context.distance(centre, edge);
             if distance > reach {
                 return ControlFlow::Continue(());
@@ -133,7 +137,7 @@ impl One<'_, '_> {
             }
             ControlFlow::Continue(())
         });
-        self.defects.extend(found);
+        self.defects.extend(found.flatten());
     }
 
     pub(super) fn check_position(&mut self, disk: &Enclosure) {

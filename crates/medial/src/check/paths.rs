@@ -132,15 +132,18 @@ fn check_middle(
     // The inner point is at most this far from the bisector.
     let off = 2.0 * ((to_left - to_right).abs() + noise) / opening;
     let free = to_left.min(to_right) - 2.0 * off - noise;
+    let mut crowd = context.crowd();
     let found = context.tree.near(middle, free, |edge| {
-        if context.distance(middle, edge) < free {
-            ControlFlow::Break(Site::edge(edge))
+        if crowd.is_over() {
+            ControlFlow::Break(None)
+        } else if context.distance(middle, edge) < free {
+            ControlFlow::Break(Some(Site::edge(edge)))
         } else {
             ControlFlow::Continue(())
         }
     });
     if free > 0.0
-        && let Some(site) = found
+        && let Some(site) = found.flatten()
     {
         let by = Name::of(context.domain, site);
         defects.push(Defect::PathCut { path: number, by, at: middle });

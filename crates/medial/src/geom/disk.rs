@@ -422,8 +422,7 @@ impl TouchingDisk {
                 before = off;
                 let (p12, p13) = (p1 - p2, p1 - p3);
                 let per = 1.0 / d;
-                let dx =
-                    Point::new((p12 * e.y - p13 * b.y) * per, (b.x * p13 - e.x * p12) * per);
+                let dx = Point::new((p12 * e.y - p13 * b.y) * per, (b.x * p13 - e.x * p12) * per);
                 disk.centre = disk.centre + dx;
                 disk.radius += p1 + n1.dot(dx);
                 continue;

@@ -139,12 +139,7 @@ impl Search<'_> {
 
     /// Where a proposed edge is met beyond one of its ends, the proposal of what follows there.
     #[inline]
-    fn beyond_end(
-        &self,
-        anchor: &Start,
-        front: Option<Front>,
-        end: &Proposal,
-    ) -> Option<Proposal> {
+    fn beyond_end(&self, anchor: &Start, front: Option<Front>, end: &Proposal) -> Option<Proposal> {
         if !end.site.is_edge() {
             return None;
         }
@@ -168,12 +163,7 @@ impl Search<'_> {
     /// The edge that looks as if it were met first of those that clearly cut a disk, and which part of it
     /// is nearest.
     #[inline(always)]
-    fn first_cut(
-        &self,
-        anchor: &Start,
-        disk: &TouchingDisk,
-        nearby: Nearby,
-    ) -> Option<(u32, i8)> {
+    fn first_cut(&self, anchor: &Start, disk: &TouchingDisk, nearby: Nearby) -> Option<(u32, i8)> {
         let domain = self.domain;
         let (right, left) = self.link;
         let own = |s: Site, k: u32, next: u32| {
@@ -285,10 +275,12 @@ impl Search<'_> {
             let to = || seen(disk, edge, domain.end(k));
             let (at_start, at_end) = (has(Site::corner(k)), has(Site::corner(edge.next)));
             if has(Site::edge(k)) {
-                return at_start || at_end || from.along > from.doubt && {
-                    let to = to();
-                    to.along < -to.doubt
-                };
+                return at_start
+                    || at_end
+                    || from.along > from.doubt && {
+                        let to = to();
+                        to.along < -to.doubt
+                    };
             }
             if at_start {
                 return from.along < -from.doubt;

@@ -478,8 +478,7 @@ pub(super) fn share(
         1.. => domain.end(edge),
     };
     let outside = (point - start.centre).norm2() - start.radius * start.radius;
-    let inside =
-        disk.radius * disk.radius - (disk.centre - (point - disk.origin)).norm2();
+    let inside = disk.radius * disk.radius - (disk.centre - (point - disk.origin)).norm2();
     outside / (outside + inside)
 }
 
