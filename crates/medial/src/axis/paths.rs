@@ -119,13 +119,11 @@ impl PathTable {
 /// Where in a cyclic list the right governor stands right before the left one.
 #[inline]
 fn place(list: &[u32], left: u32, right: u32) -> u8 {
-    if let [a, b, c] = *list {
-        return match (right, left) {
-            _ if (a, b) == (right, left) => 0,
-            _ if (b, c) == (right, left) => 1,
-            _ if (c, a) == (right, left) => 2,
-            _ => LISTED,
-        };
+    if let [_, b, c] = *list {
+        // Which of the three it is cannot be foreseen, so nothing branches on it.
+        let place = usize::from(right == b) + 2 * usize::from(right == c);
+        let next = if place == 2 { 0 } else { place + 1 };
+        return if (list[place], list[next]) == (right, left) { place as u8 } else { LISTED };
     }
     let next = |k: usize| list[if k + 1 < list.len() { k + 1 } else { 0 }];
     let places = 0..list.len().min(usize::from(LISTED));

@@ -357,7 +357,7 @@ impl TouchingDisk {
             Governor::Edge { start, end, direction: t } => {
                 // h = r (1 - n·m) for the distance h of the edge's line
                 let from_start = v - start;
-                let q = if t.dot(from_start) > t.dot(end - v) { v - end } else { from_start };
+                let q = either(t.dot(from_start) > t.dot(end - v), [v - end, from_start]);
                 let (left, right) = (t.x * q.y, t.y * q.x);
                 let h = left - right;
                 let h_error = 8.0 * U * (left.abs() + right.abs());
@@ -460,7 +460,7 @@ impl TouchingDisk {
             Governor::Edge { start, end, direction: u } => {
                 let (from, to) = (relative(start), relative(end));
                 let nearer = (self.centre - from).norm2() <= (self.centre - to).norm2();
-                let at = if nearer { from } else { to };
+                let at = either(nearer, [from, to]);
                 Local { at, direction: Some(u), far: (at.y * u.x).abs() + (at.x * u.y).abs() }
             }
         }
@@ -527,16 +527,24 @@ fn unit_in_the_last_place(x: f64) -> f64 {
 }
 
 /// The first of the points nearest to one.
+///
+/// Which one it is cannot be foreseen, so nothing branches on it.
 #[inline]
 fn nearest(points: [Point; 6], to: Point) -> Point {
-    let mut best = (f64::INFINITY, points[0]);
-    for p in points {
+    let (mut least, mut first) = ((points[0] - to).norm2(), 0);
+    for (k, &p) in points.iter().enumerate().skip(1) {
         let distance = (p - to).norm2();
-        if distance < best.0 {
-            best = (distance, p);
-        }
+        let nearer = distance < least;
+        least = if nearer { distance } else { least };
+        first = if nearer { k } else { first };
     }
-    best.1
+    points[first]
+}
+
+/// The first point if so, else the second one, without a branch.
+#[inline(always)]
+fn either(first: bool, points: [Point; 2]) -> Point {
+    points[usize::from(!first)]
 }
 
 /// The governors turned so that corners come first.

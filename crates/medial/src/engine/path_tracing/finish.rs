@@ -149,7 +149,9 @@ impl Traced {
         watch.check()?;
         self.keypoints.shrink();
         self.paths.shrink();
-        let number = Numbers::new(2 * domain.edges().len(), self.keypoints.all_governors());
+        let number = Numbers::new(2 * domain.edges().len(), |marks| {
+            self.keypoints.show_governors(|site| marks.mark(site));
+        });
         self.keypoints.renumber(|site| number.of(site));
         self.paths.renumber(|site| number.of(site));
         let sites = site_table(domain, &number)?;

@@ -14,11 +14,23 @@ pub(super) struct Numbers {
     len: u32,
 }
 
+/// Numbers that are marked already.
+pub(super) struct Marks(Vec<u8>);
+
+impl Marks {
+    /// Marks a number.
+    #[inline]
+    pub fn mark(&mut self, k: u32) {
+        self.0[k as usize] = 0;
+    }
+}
+
 impl Numbers {
-    /// Marks these numbers, all less than `bound`.
-    pub fn new(bound: usize, marked: impl Iterator<Item = u32>) -> Self {
-        let mut within = vec![UNMARKED; bound];
-        marked.for_each(|k| within[k as usize] = 0);
+    /// Marks some numbers, all less than `bound`.
+    pub fn new(bound: usize, mark: impl FnOnce(&mut Marks)) -> Self {
+        let mut marks = Marks(vec![UNMARKED; bound]);
+        mark(&mut marks);
+        let Marks(mut within) = marks;
         let mut before = Vec::with_capacity(bound.div_ceil(BLOCK));
         let mut len = 0;
         for block in within.chunks_mut(BLOCK) {
@@ -60,17 +72,17 @@ mod tests {
     #[test]
     fn marked_numbers_are_counted_in_their_order() {
         let marked = [130, 0, 127, 128, 63, 64, 63, 199];
-        let numbers = Numbers::new(200, marked.into_iter());
+        let numbers = Numbers::new(200, |marks| marked.into_iter().for_each(|k| marks.mark(k)));
         let all = (0..200).filter(|&k| numbers.has(k));
         assert_eq!(all.collect::<Vec<u32>>(), [0, 63, 64, 127, 128, 130, 199]);
         assert_eq!([0, 63, 64, 127, 128, 130, 199].map(|k| numbers.of(k)), [0, 1, 2, 3, 4, 5, 6]);
         assert_eq!(numbers.len(), 7);
-        assert_eq!(Numbers::new(0, std::iter::empty()).len(), 0);
+        assert_eq!(Numbers::new(0, |_| {}).len(), 0);
     }
 
     #[test]
     fn a_block_may_be_full() {
-        let numbers = Numbers::new(1000, 0..1000);
+        let numbers = Numbers::new(1000, |marks| (0..1000).for_each(|k| marks.mark(k)));
         assert!((0..1000).all(|k| numbers.of(k) == k));
     }
 }

@@ -36,9 +36,7 @@ pub(super) fn gather(
         for piece in group {
             copied.copy(piece, &shares);
         }
-        for site in copied.keypoints.all_governors() {
-            numbers[site as usize].store(0, Ordering::Relaxed);
-        }
+        copied.keypoints.show_governors(|site| numbers[site as usize].store(0, Ordering::Relaxed));
         copied
     });
     watch.check()?;
