@@ -121,9 +121,11 @@ impl PathTable {
 fn place(list: &[u32], left: u32, right: u32) -> u8 {
     if let [_, b, c] = *list {
         // Which of the three it is cannot be foreseen, so nothing branches on it.
-        let place = usize::from(right == b) + 2 * usize::from(right == c);
+        let place = (usize::from(right == b) + 2 * usize::from(right == c)).min(2);
         let next = if place == 2 { 0 } else { place + 1 };
-        return if (list[place], list[next]) == (right, left) { place as u8 } else { LISTED };
+        if (list[place], list[next]) == (right, left) {
+            return place as u8;
+        }
     }
     let next = |k: usize| list[if k + 1 < list.len() { k + 1 } else { 0 }];
     let places = 0..list.len().min(usize::from(LISTED));
