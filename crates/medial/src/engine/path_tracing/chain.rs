@@ -654,7 +654,10 @@ impl Search<'_> {
             end = nearer;
         }
         if let Some(few) = self.few_ahead(front) {
-            end = self.nearer(&anchor, front, end, Nearby::All(few));
+            // With one edge between the governors' there is nothing to choose.
+            if few.len() > 3 || !end.site.is_edge() {
+                end = self.nearer(&anchor, front, end, Nearby::All(few));
+            }
             if let Some(found) = self.end_among_few(few, &end) {
                 return Some(found);
             }

@@ -267,33 +267,28 @@ impl Search<'_> {
         }
         let [a, b, c] = *triple;
         let has = |site: Site| a == site || b == site || c == site;
+        // Bound on the error of any length below: one for all edges, as all lie in the polygon's box.
+        let far = disk.centre.x.abs() + disk.centre.y.abs();
+        let doubt = disk.bound + U * (16.0 * far + 26.0 * self.largest + 2.0 * disk.radius);
+        let reach = disk.radius + doubt;
+        let is_beyond = |way: Point| way.norm2() > reach * reach;
         let is_clear = |k: u32, edge: &Edge| {
-            let from = seen(disk, edge, edge.start);
-            if edge.direction.cross(from.way).abs() > disk.radius + from.doubt {
+            let way = disk.centre - (edge.start - disk.origin);
+            if edge.direction.cross(way).abs() > reach {
                 return true;
             }
-            let to = || seen(disk, edge, domain.end(k));
+            let along = edge.direction.dot(way);
             let (at_start, at_end) = (has(Site::corner(k)), has(Site::corner(edge.next)));
             if has(Site::edge(k)) {
-                return at_start
-                    || at_end
-                    || from.along > from.doubt && {
-                        let to = to();
-                        to.along < -to.doubt
-                    };
-            }
-            if at_start {
-                return from.along < -from.doubt;
-            }
-            if at_end {
-                let to = to();
-                return to.along > to.doubt;
-            }
-            if from.along <= 0.0 {
-                from.way.norm() > disk.radius + from.doubt
+                at_start || at_end || doubt < along && along < edge.length - doubt
+            } else if at_start {
+                along < -doubt
+            } else if at_end {
+                along > edge.length + doubt
+            } else if along <= 0.0 {
+                is_beyond(way)
             } else {
-                let to = to();
-                from.along >= edge.length && to.way.norm() > disk.radius + to.doubt
+                along >= edge.length && is_beyond(disk.centre - (domain.end(k) - disk.origin))
             }
         };
         front.runs().into_iter().all(|run| {
@@ -301,21 +296,4 @@ impl Search<'_> {
             run.zip(edges).all(|(k, edge)| is_clear(k, edge))
         })
     }
-}
-
-/// Where the centre of a disk lies to a point of an edge.
-struct Seen {
-    way: Point,
-    /// Along the edge.
-    along: f64,
-    /// Bound on the error of lengths.
-    doubt: f64,
-}
-
-#[inline(always)]
-fn seen(disk: &TouchingDisk, edge: &Edge, p: Point) -> Seen {
-    let a = p - disk.origin;
-    let way = disk.centre - a;
-    let size = 16.0 * (way.x.abs() + way.y.abs()) + a.x.abs() + a.y.abs() + 2.0 * disk.radius;
-    Seen { way, along: edge.direction.dot(way), doubt: disk.bound + U * size }
 }
