@@ -20,8 +20,8 @@
 //! without folds and has the boundary of the domain as its own, so it is the domain, covered once. The
 //! distance to the site of one's own cell is continuous over it, so it shrinks no faster than one goes;
 //! on the straight way to the nearest site it shrinks to zero, so it is no larger than that way. Looking
-//! at what is near each disk finds faults earlier and names them better; but where more than
-//! [`context::MOST_NEAR`] edges are near one, as in smooth shapes, it stops there.
+//! at what is near each disk finds faults earlier and names them better; but where hundreds of edges are
+//! near one, as in smooth shapes, it stops there.
 //!
 //! Bounds in double-double decide nearly everything, exact numbers what is left; floats alone are
 //! used only where a failure is sure in spite of rounding.
