@@ -18,10 +18,6 @@ use args::Command;
 use failure::{Failure, Status};
 use std::process::ExitCode;
 
-/// Many small features take and give back much memory on several threads.
-#[global_allocator]
-static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
-
 fn main() -> ExitCode {
     guard::install();
     let Ok(result) = guard::caught(run) else { return Status::NoResult.into() };
