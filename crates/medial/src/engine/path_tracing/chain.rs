@@ -22,10 +22,9 @@ use std::cmp::Ordering;
 
 use super::contacts::follows;
 use super::front::Front;
-use super::nearby::Nearby;
-use super::rings::{Link, Round};
-use super::search::{Before, Found, Gap, Proposal, SLACK, Search, Start, contact_behind};
-use super::verify::{Verdict, Verify, cuts_clearly};
+use super::rings::Round;
+use super::search::{Before, Found, Gap, Proposal, SLACK, Search, Start};
+use super::verify::cuts_clearly;
 use crate::domain::{Corner, Domain, Edge, Site};
 use crate::geom::predicates::{First, Leaving, two_ends};
 use crate::geom::{Point, TouchingDisk, U, Unsure};
@@ -34,12 +33,12 @@ use crate::geom::{Point, TouchingDisk, U, Unsure};
 const LONGEST: usize = 32;
 
 /// Growth of the radius after which the disk is looked into.
-const GROWTH: f64 = 2.0;
+pub(super) const GROWTH: f64 = 2.0;
 
 /// Growth of the radius in one step before which a smaller disk is looked into first.
-const LEAP: f64 = 4.0;
+pub(super) const LEAP: f64 = 4.0;
 
-/// Elements to either side of one that was met beyond its end that are proposed instead.
+/// Elements to either side that are tried where a disk is far away.
 const FEW: usize = 3;
 
 /// Way, in lengths of the edges there, beyond which the next elements are tried as well.
@@ -48,9 +47,6 @@ const FAR: f64 = 3.0;
 /// Bound of a disk, as a share of its radius, above which exact arithmetic rounds it: what it leaves in
 /// doubt would be asked of exact arithmetic one by one.
 pub(super) const POOR: f64 = 1e-9;
-
-/// Disks looked into before the path is left to exact arithmetic.
-const MOST_ROUNDS: usize = 64;
 
 /// A transition that was passed.
 #[derive(Clone, Debug)]
@@ -554,249 +550,6 @@ impl Search<'_> {
         let (disk, fixed) = (own.unwrap_or(disk), own.is_some());
         self.passed.push(Passed { right: r, left: l, disk, contacts, n_contacts, fixed });
         beyond
-    }
-
-    /// Looks into ever larger disks before an end that is far away or not known, and proposes what
-    /// they meet.
-    fn approach(
-        &mut self,
-        anchor: Start,
-        gap: &Gap,
-        end: Option<Proposal>,
-        known: f64,
-    ) -> Option<Proposal> {
-        let mut reach = GROWTH * known;
-        // Beyond that the path would have left the polygon.
-        let farthest = LEAP * self.largest;
-        while end.is_none_or(|e| 2.0 * reach < e.position) && reach <= farthest {
-            if self.watch.is_over() {
-                return None;
-            }
-            let Some(disk) = gap.disk_at(self.domain, reach) else { break };
-            if end.is_some_and(|e| disk.radius * LEAP > e.disk.radius) {
-                break;
-            }
-            if let Some((link, hit)) = self.among_holes(anchor, gap.front, &disk) {
-                self.go_back(link);
-                self.from_holes = true;
-                return Some(hit);
-            }
-            let few = self.few_ahead(gap.front);
-            if few.is_some() || self.luck_far.promises() {
-                let nearby = few.map_or(Nearby::Some, Nearby::All);
-                let hit = self.hit(&anchor, gap.front, &disk, nearby);
-                self.luck_far.note(hit.is_some());
-                if hit.is_some() {
-                    return hit;
-                }
-            }
-            let start = (&anchor, &self.passed[..]);
-            let mut verify = Verify::hunting(self, gap, start, disk);
-            verify.run();
-            let (link, hit, cut) = (verify.link(), verify.best(), verify.is_cut());
-            if hit.is_some() {
-                self.go_back(link);
-                return hit;
-            }
-            if cut {
-                return None;
-            }
-            reach *= LEAP;
-        }
-        end
-    }
-
-    /// A better proposal than the disk at the end of a path, and the link that it lies on, if the holes
-    /// nearby make one.
-    fn among_holes(
-        &self,
-        anchor: Start,
-        front: Option<Front>,
-        disk: &TouchingDisk,
-    ) -> Option<(usize, Proposal)> {
-        let rings = self.rings.as_ref()?;
-        let (right, left) = self.link;
-        let own = [right, left].map(|s| self.domain.edge(s.index()).walk);
-        let ahead = rings.ahead(&anchor, disk, own);
-        if ahead.is_empty() {
-            return None;
-        }
-        let here = self.passed.last().map_or(anchor, |p| Start::at(&p.disk));
-        let gap = Gap::new(right, left, here, front);
-        let mut verify = Verify::hunting(self, &gap, (&anchor, &self.passed[..]), *disk);
-        for (_, walk) in ahead {
-            verify.look_at(&self.domain.walks()[walk as usize]);
-        }
-        verify.best().map(|best| (verify.link(), best))
-    }
-
-    /// Drops what was passed from a link on, whose governors are then in `self.link`.
-    pub fn go_back(&mut self, link: usize) {
-        if let Some(passed) = self.passed.get(link) {
-            self.link = (passed.right, passed.left);
-            self.passed.truncate(link);
-        }
-    }
-
-    /// Looks into the proposed end until nothing cuts it.
-    fn settle_chain(
-        &mut self,
-        anchor: Start,
-        front: Option<Front>,
-        mut end: Proposal,
-    ) -> Option<Found> {
-        // The exact disk of the proposal, where only exact arithmetic made it.
-        let mut exact = None;
-        if !std::mem::take(&mut self.from_holes)
-            && let Some((link, nearer)) = self.among_holes(anchor, front, &end.disk)
-        {
-            self.go_back(link);
-            end = nearer;
-        }
-        if let Some(few) = self.few_ahead(front) {
-            // With one edge between the governors' there is nothing to choose.
-            if few.len() > 3 || !end.site.is_edge() {
-                end = self.nearer(&anchor, front, end, Nearby::All(few));
-            }
-            if let Some(found) = self.end_among_few(few, &end) {
-                return Some(found);
-            }
-        } else if self.luck.promises() {
-            let site = end.site;
-            end = self.nearer(&anchor, front, end, Nearby::Some);
-            self.luck.note(end.site != site);
-        }
-        for _ in 0..MOST_ROUNDS {
-            if self.watch.is_over() {
-                return None;
-            }
-            let (right, left) = self.link;
-            let here = self.passed.last().map_or(anchor, |p| Start::at(&p.disk));
-            let gap = Gap::new(right, left, here, front);
-            let triple = gap.triple(end.site);
-            let mut by_form = exact.is_none();
-            let disk = if end.disk.bound.is_finite() {
-                end.disk
-            } else {
-                let governors = self.domain.governors(triple);
-                let found = TouchingDisk::touching(&governors);
-                let pinned = || self.pinned(&triple).map(|disk| TouchingDisk::from(&disk));
-                match found.map_or_else(pinned, |disk| Some(self.sharper(&triple, disk))) {
-                    Some(disk) if disk.bound <= POOR * disk.radius => {
-                        by_form = found == Some(disk);
-                        disk
-                    }
-                    Some(disk) if found.is_some() => {
-                        exact.insert(self.certified(&triple, &disk)).rounded()
-                    }
-                    _ => exact.insert(self.exact(&triple)?).rounded(),
-                }
-            };
-            let start = (&anchor, &self.passed[..]);
-            let mut verify = Verify::certified(self, &gap, start, triple, disk, true);
-            verify.run();
-            let link = verify.link();
-            by_form &= exact.is_none();
-            let verdict = verify.verdict(&mut exact);
-            exact = None;
-            match verdict {
-                Verdict::Better(next) => {
-                    self.go_back(link);
-                    end = next;
-                }
-                Verdict::Clear(contacts) => {
-                    self.leave_out_those_in(&contacts);
-                    let (right, left) = self.link;
-                    if self.rings.is_some() {
-                        let here = self.passed.last().map_or(anchor, |p| Start::at(&p.disk));
-                        let gap = Gap::new(right, left, here, front);
-                        let slack = disk.bound + here.doubt + 64.0 * U * self.largest;
-                        if gap.course(self.domain).position(&disk) <= slack
-                            || contact_behind(&contacts, right, left).is_some()
-                            || !self.may_be_open(right, left, anchor, Round::disk(&disk))
-                        {
-                            return None;
-                        }
-                    }
-                    let fixed = contacts.len() == 3 && by_form;
-                    return Some(Found::Disk { disk, triple, contacts, fixed });
-                }
-                Verdict::OffEdge => {
-                    self.banned.push(end.site);
-                    end = self.beside(&gap, end.site)?;
-                }
-                Verdict::Earlier(site) if self.may_be_third(&gap, site) => {
-                    let smaller = self.exact(&gap.triple(site))?;
-                    end = Proposal { site, disk: smaller.rounded(), position: 0.0 };
-                    exact = Some(smaller);
-                }
-                Verdict::Cut(_) | Verdict::Earlier(_) => return None,
-            }
-        }
-        None
-    }
-
-    /// Goes back over the last transitions passed that are in a disk with these contacts.
-    pub fn leave_out_those_in(&mut self, contacts: &[Site]) {
-        while let Some(last) = self.passed.pop_if(|p| {
-            let n = usize::from(p.n_contacts);
-            p.contacts[..n].iter().all(|s| contacts.contains(s))
-        }) {
-            self.link = (last.right, last.left);
-        }
-    }
-
-    /// A disk as it is, or relative to a circle near it where its bound is poor.
-    fn sharper(&self, triple: &[Site; 3], disk: TouchingDisk) -> TouchingDisk {
-        if disk.bound <= POOR * disk.radius {
-            return disk;
-        }
-        self.pinned(triple).map_or(disk, |pinned| {
-            let sharper = TouchingDisk::from(&pinned);
-            if sharper.bound < disk.bound { sharper } else { disk }
-        })
-    }
-
-    /// The nearest proposal that the boundary makes around an edge that is met beyond its end.
-    fn beside(&self, gap: &Gap, site: Site) -> Option<Proposal> {
-        let mut best: Option<Proposal> = None;
-        let (mut ahead, mut behind) = (site, site);
-        for _ in 0..FEW {
-            (ahead, behind) = (self.domain.ahead(ahead), self.domain.behind(behind));
-            for site in [ahead, behind] {
-                let proposal = self.propose(gap, site);
-                if let Some(p) = proposal
-                    && best.is_none_or(|b| p.position < b.position)
-                {
-                    best = Some(p);
-                }
-            }
-            if best.is_some() {
-                break;
-            }
-        }
-        best
-    }
-
-    /// The same, asked only where care is taken.
-    #[inline]
-    fn may_be_open(&self, r: Site, l: Site, anchor: Start, end: Round) -> bool {
-        !self.careful || self.is_open(r, l, anchor, end)
-    }
-
-    /// Whether no ring can lie in the pocket of the path passed and one more piece.
-    fn is_open(&self, r: Site, l: Site, anchor: Start, end: Round) -> bool {
-        let Some(rings) = self.rings.as_ref() else { return true };
-        let first = Round::start(&anchor);
-        let passed = &self.passed;
-        let start = move |k: usize| if k == 0 { first } else { Round::disk(&passed[k - 1].disk) };
-        let links = (0..=passed.len()).map(move |k| match passed.get(k) {
-            Some(p) => {
-                Link { right: p.right, left: p.left, start: start(k), end: Round::disk(&p.disk) }
-            }
-            None => Link { right: r, left: l, start: start(k), end },
-        });
-        !rings.any(self.domain, links)
     }
 }
 

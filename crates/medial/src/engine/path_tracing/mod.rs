@@ -46,6 +46,7 @@ mod probe;
 mod refine;
 mod rings;
 mod search;
+mod settle;
 mod steps;
 mod touch;
 mod tracer;
