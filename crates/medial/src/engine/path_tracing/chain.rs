@@ -62,6 +62,20 @@ pub(super) struct Passed {
     pub fixed: bool,
 }
 
+/// Where a piece of a path starts, after that many transitions; `anchor` is the start of the path.
+pub(super) fn start_after(passed: &[Passed], anchor: &Start) -> Start {
+    passed.last().map_or(*anchor, |last| Start::at(&last.disk))
+}
+
+/// Number of the first piece of a path whose end an edge clearly cuts, as do the ends of all later ones:
+/// that after the last transition if it cuts none.
+pub(super) fn first_piece_cut(domain: &Domain, passed: &[Passed], edge: u32) -> usize {
+    let record = domain.edge(edge);
+    let (a, b) = (record.start, domain.end(edge));
+    let clear = |p: &Passed| !cuts_clearly(&p.disk, a, b, record);
+    passed.iter().rposition(clear).map_or(0, |k| k + 1)
+}
+
 /// What happens next on a path.
 #[derive(Clone, Copy, Debug)]
 struct Event {

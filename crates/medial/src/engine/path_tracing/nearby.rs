@@ -11,11 +11,11 @@
 
 use std::ops::Range;
 
-use super::chain::{POOR, Passed};
+use super::chain::{POOR, Passed, first_piece_cut, start_after};
 use super::contacts::Contacts;
 use super::front::Front;
 use super::search::{Found, Gap, Proposal, SLACK, Search, Start};
-use super::verify::{clear_cut, cuts_clearly, share};
+use super::verify::{clear_cut, share};
 use crate::domain::{Corner, Domain, Edge, Site};
 use crate::geom::{Point, TouchingDisk, U};
 
@@ -151,7 +151,7 @@ impl Search<'_> {
         if !before && along <= edge.length + slack {
             return None;
         }
-        let here = self.passed.last().map_or(*anchor, |p| Start::at(&p.disk));
+        let here = start_after(&self.passed, anchor);
         let gap = Gap::new(self.link.0, self.link.1, here, front);
         let mut site = end.site;
         (0..FOLLOWING).find_map(|_| {
@@ -208,34 +208,12 @@ impl Search<'_> {
         edge: u32,
         near: i8,
     ) -> Option<(usize, Proposal)> {
-        let domain = self.domain;
-        let record = domain.edge(edge);
-        let (a, b) = (record.start, domain.end(edge));
-        let link = self
-            .passed
-            .iter()
-            .rposition(|p| !cuts_clearly(&p.disk, a, b, record))
-            .map_or(0, |k| k + 1);
+        let link = first_piece_cut(self.domain, &self.passed, edge);
         let last = self.passed.get(link);
         let (right, left) = last.map_or(self.link, |p: &Passed| (p.right, p.left));
-        let start = match link.checked_sub(1) {
-            None => *anchor,
-            Some(before) => Start::at(&self.passed[before].disk),
-        };
-        let gap = Gap::new(right, left, start, front);
-        let largest = disk.radius.max(start.radius) * (1.0 + SLACK);
-        let limit = gap.course(domain).position(last.map_or(disk, |p| &p.disk));
-        let corner = |k: u32| (domain.edge(k).corner != Corner::Convex).then_some(Site::corner(k));
-        let [side, from, to] = [Some(Site::edge(edge)), corner(edge), corner(record.next)];
-        let order = match near {
-            ..0 => [from, side, to],
-            0 => [side, from, to],
-            1.. => [to, side, from],
-        };
-        order.into_iter().flatten().find_map(|site| {
-            let p = self.propose(&gap, site)?;
-            (p.position < limit && p.disk.radius <= largest).then_some((link, p))
-        })
+        let gap = Gap::new(right, left, start_after(&self.passed[..link], anchor), front);
+        let last = last.map_or(disk, |p| &p.disk);
+        self.proposal_before(&gap, disk, last, edge, near).map(|p| (link, p))
     }
 
     /// The end of a path that was proposed, if doubles can tell that nothing of the few edges ahead comes

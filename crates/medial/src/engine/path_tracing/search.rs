@@ -344,6 +344,40 @@ impl<'a> Search<'a> {
         (position >= -slack).then_some(Proposal { site, disk, position })
     }
 
+    /// Sites of an edge that could become third governors: itself, and the corners at its ends.
+    pub fn sites_of(&self, edge: u32) -> [Option<Site>; 3] {
+        let next = self.domain.edge(edge).next;
+        let corner =
+            |k: u32| (self.domain.edge(k).corner != Corner::Convex).then_some(Site::corner(k));
+        [Some(Site::edge(edge)), corner(edge), corner(next)]
+    }
+
+    /// The proposal of an edge that cuts a disk, if it comes before `last`: the disk at the end of the
+    /// piece, which is that one or an earlier one. `near` tells which part of the edge is nearest: its
+    /// start if negative, its end if positive, or the edge itself.
+    pub fn proposal_before(
+        &self,
+        gap: &Gap,
+        disk: &TouchingDisk,
+        last: &TouchingDisk,
+        edge: u32,
+        near: i8,
+    ) -> Option<Proposal> {
+        // The radius is convex along a path: an earlier disk is no larger than both ends.
+        let largest = disk.radius.max(gap.start.radius) * (1.0 + SLACK);
+        let limit = gap.course(self.domain).position(last);
+        let sites = self.sites_of(edge);
+        let order = match near {
+            ..0 => [1, 0, 2],
+            0 => [0, 1, 2],
+            1.. => [2, 0, 1],
+        };
+        order.into_iter().filter_map(|k| sites[k]).find_map(|site| {
+            let p = self.propose(gap, site)?;
+            (p.position < limit && p.disk.radius <= largest).then_some(p)
+        })
+    }
+
     /// Whether a site can be met ahead: not the governors, and not what their footpoints have
     /// left behind.
     pub fn may_be_third(&self, gap: &Gap, site: Site) -> bool {

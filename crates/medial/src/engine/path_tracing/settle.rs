@@ -3,7 +3,7 @@
 //! Ends far away, or not known, are approached by ever larger disks first. What cuts a disk is the
 //! third governor of this one or of one that was passed, and that one is looked into next.
 
-use super::chain::{GROWTH, LEAP, POOR};
+use super::chain::{GROWTH, LEAP, POOR, start_after};
 use super::front::Front;
 use super::nearby::Nearby;
 use super::rings::{Link, Round};
@@ -84,7 +84,7 @@ impl Search<'_> {
         if ahead.is_empty() {
             return None;
         }
-        let here = self.passed.last().map_or(anchor, |p| Start::at(&p.disk));
+        let here = start_after(&self.passed, &anchor);
         let gap = Gap::new(right, left, here, front);
         let mut verify = Verify::hunting(self, &gap, (&anchor, &self.passed[..]), *disk);
         for (_, walk) in ahead {
@@ -134,7 +134,7 @@ impl Search<'_> {
                 return None;
             }
             let (right, left) = self.link;
-            let here = self.passed.last().map_or(anchor, |p| Start::at(&p.disk));
+            let here = start_after(&self.passed, &anchor);
             let gap = Gap::new(right, left, here, front);
             let triple = gap.triple(end.site);
             let mut by_form = exact.is_none();
@@ -171,7 +171,7 @@ impl Search<'_> {
                     self.leave_out_those_in(&contacts);
                     let (right, left) = self.link;
                     if self.rings.is_some() {
-                        let here = self.passed.last().map_or(anchor, |p| Start::at(&p.disk));
+                        let here = start_after(&self.passed, &anchor);
                         let gap = Gap::new(right, left, here, front);
                         let slack = disk.bound + here.doubt + 64.0 * U * self.largest;
                         if gap.course(self.domain).position(&disk) <= slack

@@ -2,7 +2,7 @@ use std::cmp::Ordering;
 
 use smallvec::SmallVec;
 
-use super::chain::Passed;
+use super::chain::{Passed, first_piece_cut, start_after};
 use super::contacts::{self, Contacts};
 use super::front::scope;
 use super::search::{Gap, Proposal, SLACK, Search, Start};
@@ -170,14 +170,6 @@ impl<'s, 'a> Verify<'s, 'a> {
         self.scope = scope(start.centre, start.radius, start.doubt, &disk);
     }
 
-    /// Sites of an edge that could become third governors: itself, and the corners at its ends.
-    fn sites_of(&self, edge: u32) -> [Option<Site>; 3] {
-        let domain = self.search.domain;
-        let next = domain.edge(edge).next;
-        let corner = |k: u32| (domain.edge(k).corner != Corner::Convex).then_some(Site::corner(k));
-        [Some(Site::edge(edge)), corner(edge), corner(next)]
-    }
-
     /// Takes note of an edge that cuts the disk looked into; `near` tells which part of it is nearest:
     /// its start if negative, its end if positive, or the edge itself.
     fn cuts(&mut self, edge: u32, near: i8) {
@@ -205,24 +197,12 @@ impl<'s, 'a> Verify<'s, 'a> {
         let (search, link) = (self.search, self.link);
         let went_back = link > 0 && self.go_back(edge);
         let gap = self.earlier.as_ref().unwrap_or(self.gap);
-        // The radius is convex along a path: an earlier disk is no larger than both ends.
-        let largest = self.disk.radius.max(gap.start.radius) * (1.0 + SLACK);
         let last = if went_back { &self.passed[self.link].disk } else { &self.disk };
-        let limit = gap.course(search.domain).position(last);
-        let sites = self.sites_of(edge);
-        let order = match near {
-            ..0 => [1, 0, 2],
-            0 => [0, 1, 2],
-            1.. => [2, 0, 1],
-        };
-        for site in order.into_iter().filter_map(|k| sites[k]) {
-            let Some(p) = search.propose(gap, site) else { continue };
-            if p.position < limit && p.disk.radius <= largest {
-                self.best = Some(p);
-                self.hunting = true;
-                self.look_into(p.disk);
-                return true;
-            }
+        if let Some(p) = search.proposal_before(gap, &self.disk, last, edge, near) {
+            self.best = Some(p);
+            self.hunting = true;
+            self.look_into(p.disk);
+            return true;
         }
         if went_back {
             // It cuts an earlier disk, but no proposal comes of it.
@@ -287,21 +267,13 @@ impl<'s, 'a> Verify<'s, 'a> {
     /// A piece of the path that was passed.
     fn piece(&self, link: usize) -> Gap {
         let Passed { right, left, .. } = self.passed[link];
-        let start = match link.checked_sub(1) {
-            None => *self.anchor,
-            Some(before) => Start::at(&self.passed[before].disk),
-        };
+        let start = start_after(&self.passed[..link], self.anchor);
         Gap::new(right, left, start, self.gap.front)
     }
 
     /// Goes back to the first piece of the path whose end an edge cuts, if that is an earlier one.
     fn go_back(&mut self, edge: u32) -> bool {
-        let domain = self.search.domain;
-        let (a, b) = (domain.edge(edge).start, domain.end(edge));
-        let first = self.passed[..self.link]
-            .iter()
-            .rposition(|p| !cuts_clearly(&p.disk, a, b, domain.edge(edge)))
-            .map_or(0, |k| k + 1);
+        let first = first_piece_cut(self.search.domain, &self.passed[..self.link], edge);
         if first == self.link {
             return false;
         }
@@ -335,7 +307,7 @@ impl<'s, 'a> Verify<'s, 'a> {
         }
         if !self.cut.is_empty() {
             return Verdict::Cut(
-                self.cut.iter().flat_map(|&k| self.sites_of(k)).flatten().collect(),
+                self.cut.iter().flat_map(|&k| search.sites_of(k)).flatten().collect(),
             );
         }
         let mut contacts = Contacts::new();
