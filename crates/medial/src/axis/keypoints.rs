@@ -123,6 +123,12 @@ impl KeypointTable {
         }
     }
 
+    /// Governors of a keypoint, if there is such a keypoint and they are three.
+    #[inline(always)]
+    pub fn three(&self, keypoint: u32) -> Option<[u32; 3]> {
+        self.lists.get(keypoint as usize).copied().filter(|list| list[2] < MORE)
+    }
+
     /// Whether all governors are less than a number.
     pub fn governors_below(&self, bound: u32) -> bool {
         let mut largest = None;

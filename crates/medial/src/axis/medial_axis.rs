@@ -134,10 +134,11 @@ impl MedialAxis {
             table.push(&Keypoint { position, radius, kind }, list.iter().copied());
         }
         let paths = PathTable::of(paths.into_iter(), &table);
-        Self::from_tables(engine, side, accuracy, complete, sites, table, paths)
+        let sound = paths.numbers_below(table.len(), sites.len());
+        sound.then(|| Self::from_tables(engine, side, accuracy, complete, sites, table, paths))
     }
 
-    /// The axis with these tables, if every number points into its table.
+    /// The axis with these tables. Every number must point into its table.
     pub(crate) fn from_tables(
         engine: Engine,
         side: Side,
@@ -146,10 +147,10 @@ impl MedialAxis {
         sites: SiteTable,
         keypoints: KeypointTable,
         paths: PathTable,
-    ) -> Option<Self> {
-        let sound = keypoints.governors_below(sites.len())
-            && paths.numbers_below(keypoints.len(), sites.len());
-        sound.then_some(Self { engine, accuracy, complete, side, sites, keypoints, paths })
+    ) -> Self {
+        debug_assert!(keypoints.governors_below(sites.len()));
+        debug_assert!(paths.numbers_below(keypoints.len(), sites.len()));
+        Self { engine, accuracy, complete, side, sites, keypoints, paths }
     }
 
     /// Boundary elements that govern something.

@@ -56,14 +56,15 @@ impl PathTable {
     #[inline]
     pub fn push(&mut self, path: &Path, keypoints: &KeypointTable) {
         let Path { from, to, left, right } = *path;
-        let place = if from < keypoints.len() {
-            place(keypoints.governors(from), left, right)
-        } else {
-            LISTED
-        };
-        if place == LISTED {
-            self.listed.push(Listed { path: self.len(), left, right });
-        }
+        let three = keypoints.three(from);
+        let place = three.and_then(|list| place_of_three(list, left, right)).unwrap_or_else(|| {
+            let known = from < keypoints.len();
+            let place = if known { place(keypoints.governors(from), left, right) } else { LISTED };
+            if place == LISTED {
+                self.listed.push(Listed { path: self.len(), left, right });
+            }
+            place
+        });
         self.ends.push([from, to]);
         self.places.push(place);
     }
@@ -116,17 +117,20 @@ impl PathTable {
     }
 }
 
+/// Where in a cyclic list of three the right governor stands right before the left one.
+///
+/// Which of the three it is cannot be foreseen, so nothing branches on it.
+#[inline(always)]
+fn place_of_three([a, b, c]: [u32; 3], left: u32, right: u32) -> Option<u8> {
+    let [first, second, third] =
+        [(a, b), (b, c), (c, a)].map(|pair| u8::from(pair == (right, left)));
+    (first | second | third != 0).then_some(second + 2 * third)
+}
+
 /// Where in a cyclic list the right governor stands right before the left one.
-#[inline]
+#[cold]
+#[inline(never)]
 fn place(list: &[u32], left: u32, right: u32) -> u8 {
-    if let [_, b, c] = *list {
-        // Which of the three it is cannot be foreseen, so nothing branches on it.
-        let place = (usize::from(right == b) + 2 * usize::from(right == c)).min(2);
-        let next = if place == 2 { 0 } else { place + 1 };
-        if (list[place], list[next]) == (right, left) {
-            return place as u8;
-        }
-    }
     let next = |k: usize| list[if k + 1 < list.len() { k + 1 } else { 0 }];
     let places = 0..list.len().min(usize::from(LISTED));
     places.into_iter().find(|&k| (list[k], next(k)) == (right, left)).map_or(LISTED, |k| k as u8)

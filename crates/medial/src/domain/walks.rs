@@ -76,6 +76,22 @@ pub struct Edge {
     pub corner: Corner,
 }
 
+impl Edge {
+    /// The squared distance of the edge from a place, given relative to its start, rounded.
+    ///
+    /// Which part of an edge is nearest can rarely be foreseen, so nothing branches on it.
+    #[inline(always)]
+    #[must_use]
+    pub(crate) fn distance2(&self, way: Point) -> f64 {
+        let (along, across) = (self.direction.dot(way), self.direction.cross(way));
+        let before = if along < 0.0 { along } else { 0.0 };
+        let beyond = along - self.length;
+        let beyond = if beyond > 0.0 { beyond } else { 0.0 };
+        let outside = before + beyond;
+        across * across + outside * outside
+    }
+}
+
 /// A closed walk along the boundary: a ring, or what sectors make of rings that touch.
 #[derive(Clone, Copy, Debug)]
 pub struct Walk {

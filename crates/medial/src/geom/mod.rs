@@ -17,6 +17,7 @@ pub use capsule_tree::{CapsuleTree, Hidden, LEAF, Look, Scope};
 pub(crate) use disk::U;
 pub use disk::{Governor, TouchingDisk, Unsure};
 pub use double::Double;
+pub(crate) use double::{Doubled, Fused};
 pub use hilbert::hilbert;
 pub use orient::{cross_directions, orient2d};
 pub use point::Point;

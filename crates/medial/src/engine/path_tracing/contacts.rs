@@ -144,6 +144,7 @@ fn direction_turn(pa: Point, qa: Point, pb: Point, qb: Point) -> Ordering {
 }
 
 /// Whether `b` comes directly after `a` along the boundary.
+#[inline]
 pub(super) fn follows(domain: &Domain, a: Site, b: Site) -> bool {
     let next = if a.is_edge() { domain.edge(a.index()).next } else { a.index() };
     if a.is_edge() {

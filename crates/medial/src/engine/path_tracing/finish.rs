@@ -156,19 +156,14 @@ impl Traced {
         self.paths.renumber(|site| number.of(site));
         let sites = site_table(domain, &number)?;
         drop(number);
-        axis_of(sites, self.keypoints, self.paths)
+        Ok(axis_of(sites, self.keypoints, self.paths))
     }
 }
 
 /// The axis with these tables.
-pub(super) fn axis_of(
-    sites: SiteTable,
-    keypoints: KeypointTable,
-    paths: PathTable,
-) -> Result<MedialAxis, EngineError> {
+pub(super) fn axis_of(sites: SiteTable, keypoints: KeypointTable, paths: PathTable) -> MedialAxis {
     let (engine, side, accuracy) = (Engine::PathTracing, Side::Interior, Accuracy::Exact);
     MedialAxis::from_tables(engine, side, accuracy, true, sites, keypoints, paths)
-        .ok_or(EngineError::Internal { stage: "numbering sites", place: Point::default() })
 }
 
 /// The table of the sites that have a new number.

@@ -169,30 +169,45 @@ impl Search<'_> {
         let own = |s: Site, k: u32, next: u32| {
             s == Site::edge(k) || !s.is_edge() && (s.index() == k || s.index() == next)
         };
+        let clear = disk.radius * (1.0 - SLACK);
+        let (runs, mut cutting) = (nearby.runs(domain, self.link), 0_u32);
+        let n_first = runs[0].len();
+        // Which edges cut it can rarely be foreseen, so nothing branches on it.
+        let mut note = |run: &Range<u32>, before: usize| {
+            for (k, edge) in domain.edges()[run.start as usize..run.end as usize].iter().enumerate()
+            {
+                let way = disk.centre - (edge.start - disk.origin);
+                cutting |= u32::from(edge.distance2(way) < clear * clear) << (before + k);
+            }
+        };
+        note(&runs[0], 0);
+        note(&runs[1], n_first);
         let mut first: Option<(u32, i8)> = None;
         let mut least = f64::NAN;
-        for run in nearby.runs(domain, self.link) {
-            let numbers = run.clone();
-            let edges = &domain.edges()[run.start as usize..run.end as usize];
-            for (k, edge) in numbers.zip(edges) {
-                let Some(near) = clear_cut(disk, edge.start, || domain.end(k), edge) else {
-                    continue;
-                };
-                if own(right, k, edge.next) || own(left, k, edge.next) {
-                    continue;
-                }
-                let Some((edge, part)) = first else {
-                    first = Some((k, near));
-                    continue;
-                };
-                if least.is_nan() {
-                    least = share(domain, anchor, disk, edge, part);
-                }
-                let share = share(domain, anchor, disk, k, near);
-                if share < least {
-                    least = share;
-                    first = Some((k, near));
-                }
+        while cutting != 0 {
+            let place = cutting.trailing_zeros();
+            cutting &= cutting - 1;
+            let n_first = n_first as u32;
+            let second = place >= n_first;
+            let k = if second { runs[1].start + (place - n_first) } else { runs[0].start + place };
+            let edge = domain.edge(k);
+            let Some(near) = clear_cut(disk, edge.start, || domain.end(k), edge) else {
+                continue;
+            };
+            if own(right, k, edge.next) || own(left, k, edge.next) {
+                continue;
+            }
+            let Some((edge, part)) = first else {
+                first = Some((k, near));
+                continue;
+            };
+            if least.is_nan() {
+                least = share(domain, anchor, disk, edge, part);
+            }
+            let share = share(domain, anchor, disk, k, near);
+            if share < least {
+                least = share;
+                first = Some((k, near));
             }
         }
         first
@@ -247,13 +262,14 @@ impl Search<'_> {
         let has = |site: Site| a == site || b == site || c == site;
         // Bound on the error of any length below: one for all edges, as all lie in the polygon's box.
         let far = disk.centre.x.abs() + disk.centre.y.abs();
-        let doubt = disk.bound + U * (16.0 * far + 26.0 * self.largest + 2.0 * disk.radius);
+        let doubt = disk.bound + U * (16.0 * far + 32.0 * self.largest + 2.0 * disk.radius);
         let reach = disk.radius + doubt;
         let is_beyond = |way: Point| way.norm2() > reach * reach;
         let is_clear = |k: u32, edge: &Edge| {
             let way = disk.centre - (edge.start - disk.origin);
-            if edge.direction.cross(way).abs() > reach {
-                return true;
+            if edge.distance2(way) > reach * reach {
+                // A governor as far away is met beyond one of its ends.
+                return !has(Site::edge(k));
             }
             let along = edge.direction.dot(way);
             let (at_start, at_end) = (has(Site::corner(k)), has(Site::corner(edge.next)));

@@ -9,7 +9,7 @@
 //!   doubles. For an edge `(q × d - r |d|) / |d|`, for a corner `(q·q - r²) / (|q| + r)`: one root and
 //!   no division is precise.
 
-use crate::geom::{Double, Governor, Point};
+use crate::geom::{Doubled, Fused, Governor, Point};
 
 /// Least spread of the normals with which Newton steps in doubles converge.
 const LEAST_SPREAD: f64 = 1e-12;
@@ -28,14 +28,49 @@ const MOST_STEPS: usize = 6;
 
 /// Centre and radius near a start, right to about half an ulp of max(|x|, |y|, radius); `None` where
 /// that cannot be had.
+#[inline]
 pub(super) fn refined(
     governors: &[Governor; 3],
     centre: Point,
     radius: f64,
 ) -> Option<(Point, f64)> {
+    #[cfg(target_arch = "x86_64")]
+    if let Some(fused) = Fused::detect() {
+        return fused.refined(governors, centre, radius);
+    }
+    refined_by::<false>(governors, centre, radius)
+}
+
+#[cfg(target_arch = "x86_64")]
+impl Fused {
+    #[inline]
+    #[allow(unsafe_code, reason = "only the machine itself tells what instructions it has")]
+    fn refined(
+        self,
+        governors: &[Governor; 3],
+        centre: Point,
+        radius: f64,
+    ) -> Option<(Point, f64)> {
+        // SAFETY: `self` is made only where the machine has them.
+        unsafe { refined_fused(governors, centre, radius) }
+    }
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "fma")]
+fn refined_fused(governors: &[Governor; 3], centre: Point, radius: f64) -> Option<(Point, f64)> {
+    refined_by::<true>(governors, centre, radius)
+}
+
+#[inline(always)]
+fn refined_by<const F: bool>(
+    governors: &[Governor; 3],
+    centre: Point,
+    radius: f64,
+) -> Option<(Point, f64)> {
     let Refined { centre, radius, bound } = match on_normal(governors) {
-        Some((direction, at, other)) => at_end(direction, at, other)?,
-        None => steps(governors, centre, radius)?,
+        Some((direction, at, other)) => at_end::<F>(direction, at, other)?,
+        None => steps::<F>(governors, centre, radius)?,
     };
     let scale = size(centre, radius);
     let sound = radius > 0.0 && centre.x.is_finite() && centre.y.is_finite();
@@ -54,30 +89,35 @@ fn size(centre: Point, radius: f64) -> f64 {
     centre.x.abs().max(centre.y.abs()).max(radius)
 }
 
-/// A vector of [`Double`]s.
+/// A vector of pairs of doubles.
 #[derive(Clone, Copy)]
-struct Vector {
-    x: Double,
-    y: Double,
+struct Vector<const F: bool> {
+    x: Doubled<F>,
+    y: Doubled<F>,
 }
 
-impl Vector {
+impl<const F: bool> Vector<F> {
+    #[inline(always)]
     fn difference(a: Point, b: Point) -> Self {
-        Self { x: Double::difference(a.x, b.x), y: Double::difference(a.y, b.y) }
+        Self { x: Doubled::difference(a.x, b.x), y: Doubled::difference(a.y, b.y) }
     }
 
+    #[inline(always)]
     fn minus(self, other: Self) -> Self {
         Self { x: self.x.minus(other.x), y: self.y.minus(other.y) }
     }
 
-    fn dot(self, other: Self) -> Double {
-        Double::sum_of_products(self.x, other.x, self.y, other.y)
+    #[inline(always)]
+    fn dot(self, other: Self) -> Doubled<F> {
+        Doubled::sum_of_products(self.x, other.x, self.y, other.y)
     }
 
-    fn cross(self, other: Self) -> Double {
-        Double::sum_of_products(self.x, other.y, -self.y, other.x)
+    #[inline(always)]
+    fn cross(self, other: Self) -> Doubled<F> {
+        Doubled::sum_of_products(self.x, other.y, -self.y, other.x)
     }
 
+    #[inline(always)]
     fn value(self) -> Point {
         Point::new(self.x.value(), self.y.value())
     }
@@ -101,8 +141,13 @@ fn on_normal(governors: &[Governor; 3]) -> Option<((Point, Point), Point, &Gover
 }
 
 /// The disk with its centre on the normal of an edge at one of its ends.
-fn at_end((start, end): (Point, Point), at: Point, other: &Governor) -> Option<Refined> {
-    let d = Vector::difference(end, start);
+#[inline(always)]
+fn at_end<const F: bool>(
+    (start, end): (Point, Point),
+    at: Point,
+    other: &Governor,
+) -> Option<Refined> {
+    let d = Vector::<F>::difference(end, start);
     let length = d.dot(d).sqrt();
     // The radius is t |d|, with an error relative to it.
     let (t, error) = match *other {
@@ -133,15 +178,16 @@ fn at_end((start, end): (Point, Point), at: Point, other: &Governor) -> Option<R
         }
     };
     let radius = (length * t).value();
-    let x = Double::from(at.x) - d.y * t;
-    let y = Double::from(at.y) + d.x * t;
+    let x = Doubled::from(at.x) - d.y * t;
+    let y = Doubled::from(at.y) + d.x * t;
     let sound = t.value() > 0.0 && error * RESIDUAL_ERROR <= 0.125;
     let centre = Point::new(x.value(), y.value());
     sound.then_some(Refined { centre, radius, bound: radius * error * RESIDUAL_ERROR })
 }
 
 /// The disk that Newton steps lead to.
-fn steps(governors: &[Governor; 3], centre: Point, radius: f64) -> Option<Refined> {
+#[inline(always)]
+fn steps<const F: bool>(governors: &[Governor; 3], centre: Point, radius: f64) -> Option<Refined> {
     let away = |p: Point| (p - centre).norm2();
     let anchors = [0, 1, 2].map(|k| match governors[k] {
         Governor::Corner(p) => p,
@@ -152,18 +198,14 @@ fn steps(governors: &[Governor; 3], centre: Point, radius: f64) -> Option<Refine
     let nearer = if away(b) < away(a) { b } else { a };
     let origin = if away(c) < away(nearer) { c } else { nearer };
     let frames =
-        [0, 1, 2].map(|k| (Frame::new(&governors[k]), Vector::difference(anchors[k], origin)));
+        [0, 1, 2].map(|k| (Frame::<F>::new(&governors[k]), Vector::difference(anchors[k], origin)));
     let curved = governors.iter().any(|g| matches!(g, Governor::Corner(_)));
     let mut local = Vector::difference(centre, origin);
-    let mut r = Double::from(radius);
+    let mut r = Doubled::<F>::from(radius);
     let mut best: Option<Refined> = None;
     for _ in 0..MOST_STEPS {
-        let residual = |k: usize| {
-            let (frame, a) = &frames[k];
-            let (normal, rho) = frame.residual(local.minus(*a), r);
-            (normal, rho, a.value().x.abs() + a.value().y.abs())
-        };
-        let [(n1, p1, s1), (n2, p2, s2), (n3, p3, s3)] = [residual(0), residual(1), residual(2)];
+        let [(n1, p1, s1), (n2, p2, s2), (n3, p3, s3)] =
+            [seen(&frames[0], local, r), seen(&frames[1], local, r), seen(&frames[2], local, r)];
         let (b, e) = (n2 - n1, n3 - n1);
         let d = b.cross(e);
         // Below this the solution in doubles no longer converges.
@@ -179,8 +221,8 @@ fn steps(governors: &[Governor; 3], centre: Point, radius: f64) -> Option<Refine
         let c = local.value();
         let error = RESIDUAL_ERROR * (radius + c.x.abs() + c.y.abs() + s1 + s2 + s3);
         let step = gain * (p1.abs().max(p2.abs()).max(p3.abs()) + error);
-        let x = Double::from(origin.x) + (local.x + Double::from(dx.x));
-        let y = Double::from(origin.y) + (local.y + Double::from(dx.y));
+        let x = Doubled::from(origin.x) + (local.x + Doubled::from(dx.x));
+        let y = Doubled::from(origin.y) + (local.y + Doubled::from(dx.y));
         // What the step leaves: the roundings of its normals and its solution, and the curvature of
         // the distance from corners, where it is so short that the normals stay about the same.
         let mut left = error + 16.0 * f64::EPSILON * step;
@@ -188,8 +230,8 @@ fn steps(governors: &[Governor; 3], centre: Point, radius: f64) -> Option<Refine
             left += if 16.0 * gain * step <= radius { step * step / radius } else { step };
         }
         let bound = gain * left + 32.0 * f64::EPSILON * step * per;
-        (local.x, local.y) = (local.x + Double::from(dx.x), local.y + Double::from(dx.y));
-        r = r + Double::from(dr);
+        (local.x, local.y) = (local.x + Doubled::from(dx.x), local.y + Doubled::from(dx.y));
+        r = r + Doubled::from(dr);
         if best.as_ref().is_some_and(|best| bound.is_nan() || bound >= best.bound / 2.0) {
             break;
         }
@@ -204,15 +246,26 @@ fn steps(governors: &[Governor; 3], centre: Point, radius: f64) -> Option<Refine
     best
 }
 
-/// A governor as residuals need it.
-enum Frame {
-    Corner,
-    /// The way along an edge, its length, and the unit normal, rounded.
-    Edge(Vector, Double, Point),
+/// The residual of a governor, given with what leads to its anchor, and the size of that.
+#[inline(always)]
+fn seen<const F: bool>(
+    (frame, a): &(Frame<F>, Vector<F>),
+    local: Vector<F>,
+    r: Doubled<F>,
+) -> (Point, f64, f64) {
+    let (normal, rho) = frame.residual(local.minus(*a), r);
+    (normal, rho, a.value().x.abs() + a.value().y.abs())
 }
 
-impl Frame {
-    #[inline]
+/// A governor as residuals need it.
+enum Frame<const F: bool> {
+    Corner,
+    /// The way along an edge, its length, and the unit normal, rounded.
+    Edge(Vector<F>, Doubled<F>, Point),
+}
+
+impl<const F: bool> Frame<F> {
+    #[inline(always)]
     fn new(governor: &Governor) -> Self {
         match *governor {
             Governor::Corner(_) => Self::Corner,
@@ -225,8 +278,8 @@ impl Frame {
 
     /// Unit normal towards the centre, rounded, and distance less radius; `q` leads from the corner, or
     /// from an end of the edge, to the centre.
-    #[inline]
-    fn residual(&self, q: Vector, r: Double) -> (Point, f64) {
+    #[inline(always)]
+    fn residual(&self, q: Vector<F>, r: Doubled<F>) -> (Point, f64) {
         match *self {
             Self::Corner => {
                 let square = q.dot(q);

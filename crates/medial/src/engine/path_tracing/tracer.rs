@@ -1,5 +1,6 @@
 use std::ops::Range;
 
+use super::contacts::follows;
 use super::finish::{Mark, Traced};
 use super::gaps::{Gaps, Open};
 use super::hand::{Arrival, Hand, from_least, openings, path, three_from_least};
@@ -247,18 +248,46 @@ impl<'a> Tracer<'a> {
                 self.met[(walk - self.first_walk) as usize] = true;
             }
         }
-        let openings = openings(self.hand.domain, list);
+        let n_openings = self.push_openings(keypoint, list, right, left)?;
+        if three_from_least(triple)[..] != *list {
+            self.triples.push((keypoint, triple));
+        }
+        self.hand.set_kind(keypoint, n_openings);
+        Some(())
+    }
+
+    /// The same for the stack only; gives the number of paths that meet in the keypoint.
+    #[inline]
+    fn push_openings(
+        &mut self,
+        keypoint: u32,
+        list: &[Site],
+        right: Site,
+        left: Site,
+    ) -> Option<usize> {
+        let domain = self.hand.domain;
+        if let [Site(a), Site(b), Site(c)] = *list {
+            let third = Site(a ^ b ^ c ^ right.0 ^ left.0);
+            if three_from_least([left, right, third])[..] == *list && !follows(domain, left, right)
+            {
+                let mut n_openings = 1;
+                // What follows the arrival is traced first.
+                for (right, left) in [(third, left), (right, third)] {
+                    if !follows(domain, right, left) {
+                        self.gaps.push(keypoint, right, left);
+                        n_openings += 1;
+                    }
+                }
+                return Some(n_openings);
+            }
+        }
+        let openings = openings(domain, list);
         let arrived = openings.iter().position(|&o| o == (left, right))?;
-        // What follows the arrival is traced first.
         let (before, after) = (&openings[..arrived], &openings[arrived + 1..]);
         for &(right, left) in before.iter().rev().chain(after.iter().rev()) {
             self.gaps.push(keypoint, right, left);
         }
-        if three_from_least(triple)[..] != *list {
-            self.triples.push((keypoint, triple));
-        }
-        self.hand.set_kind(keypoint, openings.len());
-        Some(())
+        Some(openings.len())
     }
 
     /// The axis: every position computed as precisely as promised.

@@ -4,7 +4,7 @@ use std::cmp::Ordering;
 
 use super::Element;
 use super::near::{Near, SHORT, sign};
-use crate::geom::{Double, Pinned, Point, U};
+use crate::geom::{Double, Doubled, Fused, Pinned, Point, U};
 
 /// Rounding of a distance, or of a sum of two products, relative to the sizes that enter it.
 ///
@@ -19,41 +19,57 @@ const CLEAR: f64 = f64::EPSILON / 4.0;
 const STEPS: usize = 12;
 
 /// A vector of pairs of doubles.
+type Pair = Paired<false>;
+
+/// The same, with numbers that are multiplied and added at once, or not.
 #[derive(Clone, Copy, Debug)]
-struct Pair {
-    x: Double,
-    y: Double,
+struct Paired<const F: bool> {
+    x: Doubled<F>,
+    y: Doubled<F>,
 }
 
-impl Pair {
-    const ZERO: Self = Self { x: Double::ZERO, y: Double::ZERO };
+impl<const F: bool> Paired<F> {
+    const ZERO: Self = Self { x: Doubled::ZERO, y: Doubled::ZERO };
 
-    /// The difference of two points, without error.
-    fn between(from: Point, to: Point) -> Self {
-        Self { x: Double::difference(to.x, from.x), y: Double::difference(to.y, from.y) }
+    /// The same vector, to be computed with in that way.
+    #[inline(always)]
+    fn cast<const OTHER: bool>(self) -> Paired<OTHER> {
+        Paired { x: self.x.cast(), y: self.y.cast() }
     }
 
+    /// The difference of two points, without error.
+    #[inline(always)]
+    fn between(from: Point, to: Point) -> Self {
+        Self { x: Doubled::difference(to.x, from.x), y: Doubled::difference(to.y, from.y) }
+    }
+
+    #[inline(always)]
     fn minus(self, other: Self) -> Self {
         Self { x: self.x - other.x, y: self.y - other.y }
     }
 
-    fn dot(self, other: Self) -> Double {
+    #[inline(always)]
+    fn dot(self, other: Self) -> Doubled<F> {
         self.x * other.x + self.y * other.y
     }
 
+    #[inline(always)]
     fn perp(self) -> Self {
         Self { x: -self.y, y: self.x }
     }
 
-    fn times(self, factor: Double) -> Self {
+    #[inline(always)]
+    fn times(self, factor: Doubled<F>) -> Self {
         Self { x: self.x * factor, y: self.y * factor }
     }
 
+    #[inline(always)]
     fn value(self) -> Point {
         Point::new(self.x.value(), self.y.value())
     }
 
     /// Sum of the sizes of the components.
+    #[inline(always)]
     fn size(self) -> f64 {
         self.x.value().abs() + self.y.value().abs()
     }
@@ -77,23 +93,24 @@ struct Residual {
 
 /// An element relative to the origin, its normal in doubles.
 #[derive(Clone, Copy)]
-enum Plain {
-    Corner(Pair),
+enum Plain<const F: bool> {
+    Corner(Paired<F>),
     /// A point of the supporting line, the way along it and its length, and the unit normal, each
     /// component within 4u of its own.
-    Edge(Pair, Pair, Double, Point),
+    Edge(Paired<F>, Paired<F>, Doubled<F>, Point),
 }
 
-impl Plain {
+impl<const F: bool> Plain<F> {
+    #[inline(always)]
     fn new(element: Element, origin: Point, near: Point) -> Self {
         match element {
-            Element::Corner(p) => Self::Corner(Pair::between(origin, p)),
+            Element::Corner(p) => Self::Corner(Paired::<F>::between(origin, p)),
             Element::Edge(a, b) => {
                 let nearest = if (a - near).norm2() <= (b - near).norm2() { a } else { b };
-                let d = Pair::between(a, b);
-                let length = Double::sum_of_products(d.x, d.x, d.y, d.y).sqrt();
+                let d = Paired::<F>::between(a, b);
+                let length = Doubled::<F>::sum_of_products(d.x, d.x, d.y, d.y).sqrt();
                 let normal = d.value().perp() * (1.0 / length.value());
-                Self::Edge(Pair::between(origin, nearest), d, length, normal)
+                Self::Edge(Paired::<F>::between(origin, nearest), d, length, normal)
             }
         }
     }
@@ -102,18 +119,19 @@ impl Plain {
     ///
     /// For an edge `(d × q - r |d|) / |d|`, for a corner `(q·q - r²) / (|q| + r)`: one root and no
     /// division is precise.
+    #[inline(always)]
     fn residual(&self, disk: &Fine) -> (Point, f64, f64) {
         let (Self::Corner(p) | Self::Edge(p, ..)) = *self;
-        let (q, r) = (disk.centre.minus(p), disk.radius);
+        let (q, r) = (disk.centre.cast().minus(p), disk.radius.cast());
         let (normal, rest) = match *self {
             Self::Corner(_) => {
-                let square = Double::sum_of_products(q.x, q.x, q.y, q.y);
+                let square = Doubled::<F>::sum_of_products(q.x, q.x, q.y, q.y);
                 let distance = square.value().sqrt();
                 let rest = square.less_product(r, r) / (distance + r.value());
                 (q.value() * (1.0 / distance), rest)
             }
             Self::Edge(_, d, length, normal) => {
-                let cross = Double::sum_of_products(d.x, q.y, -d.y, q.x);
+                let cross = Doubled::<F>::sum_of_products(d.x, q.y, -d.y, q.x);
                 (normal, cross.less_product(r, length) / length.value())
             }
         };
@@ -138,9 +156,10 @@ struct Seen {
 }
 
 impl Seen {
-    fn plain(disk: &Fine, elements: &[Plain; 3]) -> Self {
+    #[inline(always)]
+    fn plain<const F: bool>(disk: &Fine, [g1, g2, g3]: &[Plain<F>; 3]) -> Self {
         let [(n1, p1, e1), (n2, p2, e2), (n3, p3, e3)] =
-            [0, 1, 2].map(|k| elements[k].residual(disk));
+            [g1.residual(disk), g2.residual(disk), g3.residual(disk)];
         let (b, e, across) = (n2 - n1, n3 - n1, n2 - n3);
         let blur = 16.0 * U;
         Self { first: n1, b, e, across, blur, rests: [p1, p2, p3], errors: [e1, e2, e3] }
@@ -194,10 +213,7 @@ impl Fine {
         let centre = origin + start.centre;
         let corners = elements.iter().any(|e| matches!(e, Element::Corner(_)));
         // Where the normals are clearly apart doubles hold them well enough.
-        let plain = elements.map(|element| Plain::new(element, disk.origin, centre));
-        if Seen::plain(&disk, &plain).is_wide()
-            && let Some(found) = Self::steps(disk, corners, |disk| Seen::plain(disk, &plain))
-        {
+        if let Some(found) = disk.plain_steps(elements, centre, corners) {
             return Some(found);
         }
         let locals = [
@@ -208,7 +224,33 @@ impl Fine {
         Self::steps(disk, corners, |disk| Seen::precise(disk, &locals))
     }
 
+    /// The disk that Newton steps with normals in doubles lead to, if these are clearly apart.
+    fn plain_steps(&self, elements: &[Element; 3], centre: Point, corners: bool) -> Option<Self> {
+        #[cfg(target_arch = "x86_64")]
+        if let Some(fused) = Fused::detect() {
+            return fused.plain_steps(self, elements, centre, corners);
+        }
+        self.plain_steps_by::<false>(elements, centre, corners)
+    }
+
+    #[inline(always)]
+    fn plain_steps_by<const F: bool>(
+        &self,
+        &[a, b, c]: &[Element; 3],
+        centre: Point,
+        corners: bool,
+    ) -> Option<Self> {
+        let plain = [
+            Plain::<F>::new(a, self.origin, centre),
+            Plain::new(b, self.origin, centre),
+            Plain::new(c, self.origin, centre),
+        ];
+        let wide = Seen::plain(self, &plain).is_wide();
+        wide.then(|| Self::steps(*self, corners, |disk| Seen::plain(disk, &plain))).flatten()
+    }
+
     /// The disk that Newton steps lead to.
+    #[inline(always)]
     fn steps(mut disk: Self, corners: bool, see: impl Fn(&Self) -> Seen) -> Option<Self> {
         let mut best: Option<Self> = None;
         for _ in 0..STEPS {
@@ -395,6 +437,33 @@ impl Fine {
             }
         }
     }
+}
+
+#[cfg(target_arch = "x86_64")]
+impl Fused {
+    #[inline]
+    #[allow(unsafe_code, reason = "only the machine itself tells what instructions it has")]
+    fn plain_steps(
+        self,
+        disk: &Fine,
+        elements: &[Element; 3],
+        centre: Point,
+        corners: bool,
+    ) -> Option<Fine> {
+        // SAFETY: `self` is made only where the machine has them.
+        unsafe { plain_steps_fused(disk, elements, centre, corners) }
+    }
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "fma")]
+fn plain_steps_fused(
+    disk: &Fine,
+    elements: &[Element; 3],
+    centre: Point,
+    corners: bool,
+) -> Option<Fine> {
+    disk.plain_steps_by::<true>(elements, centre, corners)
 }
 
 /// The unit vector of a direction.

@@ -94,7 +94,7 @@ pub(super) fn gather(
         table.push(&site).ok_or(EngineError::TooLarge { n_edges })?;
     }
     table.shrink();
-    axis_of(table, keypoints, paths).map(Some)
+    Ok(Some(axis_of(table, keypoints, paths)))
 }
 
 /// The pieces in as many groups of about the same size.
