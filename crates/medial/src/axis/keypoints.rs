@@ -49,7 +49,7 @@ impl KeypointTable {
     }
 
     /// Adds a keypoint with its governors.
-    #[inline]
+    #[inline(always)]
     pub fn push(
         &mut self,
         keypoint: &Keypoint,

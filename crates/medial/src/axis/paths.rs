@@ -53,18 +53,26 @@ impl PathTable {
 
     /// Adds a path. It takes least room if it starts at a keypoint of that table, between two
     /// neighbouring governors.
-    #[inline]
+    #[inline(always)]
     pub fn push(&mut self, path: &Path, keypoints: &KeypointTable) {
         let Path { from, to, left, right } = *path;
         let three = keypoints.three(from);
-        let place = three.and_then(|list| place_of_three(list, left, right)).unwrap_or_else(|| {
-            let known = from < keypoints.len();
-            let place = if known { place(keypoints.governors(from), left, right) } else { LISTED };
-            if place == LISTED {
-                self.listed.push(Listed { path: self.len(), left, right });
-            }
-            place
-        });
+        let Some(place) = three.and_then(|list| place_of_three(list, left, right)) else {
+            return self.push_any(path, keypoints);
+        };
+        self.ends.push([from, to]);
+        self.places.push(place);
+    }
+
+    /// The same for a path that starts at a keypoint of not just three governors, or not between two.
+    #[cold]
+    #[inline(never)]
+    fn push_any(&mut self, &Path { from, to, left, right }: &Path, keypoints: &KeypointTable) {
+        let known = from < keypoints.len();
+        let place = if known { place(keypoints.governors(from), left, right) } else { LISTED };
+        if place == LISTED {
+            self.listed.push(Listed { path: self.len(), left, right });
+        }
         self.ends.push([from, to]);
         self.places.push(place);
     }
@@ -128,8 +136,6 @@ fn place_of_three([a, b, c]: [u32; 3], left: u32, right: u32) -> Option<u8> {
 }
 
 /// Where in a cyclic list the right governor stands right before the left one.
-#[cold]
-#[inline(never)]
 fn place(list: &[u32], left: u32, right: u32) -> u8 {
     let next = |k: usize| list[if k + 1 < list.len() { k + 1 } else { 0 }];
     let places = 0..list.len().min(usize::from(LISTED));

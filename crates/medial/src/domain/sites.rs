@@ -4,7 +4,7 @@ use crate::geom::predicates::Element;
 
 impl Domain {
     /// A site as doubles compute with it.
-    #[inline]
+    #[inline(always)]
     #[must_use]
     pub fn governor(&self, site: Site) -> Governor {
         let edge = self.edge(site.index());
@@ -17,7 +17,7 @@ impl Domain {
     }
 
     /// Three sites as doubles compute with them.
-    #[inline]
+    #[inline(always)]
     #[must_use]
     pub fn governors(&self, [a, b, c]: [Site; 3]) -> [Governor; 3] {
         [self.governor(a), self.governor(b), self.governor(c)]

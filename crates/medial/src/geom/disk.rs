@@ -173,7 +173,7 @@ impl TouchingDisk {
     /// The disk that touches three elements counterclockwise in the order given, uncertified.
     ///
     /// `near` chooses the local origin among the ends of the elements.
-    #[inline]
+    #[inline(always)]
     #[must_use]
     pub fn guess(governors: &[Governor; 3], near: Point) -> Option<Self> {
         let g = corners_first(governors);
@@ -190,7 +190,7 @@ impl TouchingDisk {
     }
 
     /// The closed form, for governors with corners first; for three edges relative to an end of one.
-    #[inline]
+    #[inline(always)]
     fn form(g: [&Governor; 3], origin: Point) -> Option<Self> {
         use Governor::{Corner, Edge};
         let (origin, centre, radius) = match g {
@@ -404,13 +404,16 @@ impl TouchingDisk {
     }
 
     /// The same for governors none of which ends at another one.
+    #[inline(always)]
     fn certify(&self, governors: [&Governor; 3]) -> Option<Self> {
         let mut disk = *self;
-        let locals = governors.map(|g| disk.local(g));
+        let [g1, g2, g3] = governors;
+        let locals = [disk.local(g1), disk.local(g2), disk.local(g3)];
         let mut before = f64::INFINITY;
         for _ in 0..=MOST_STEPS {
+            let residual = |k: usize| locals[k].residual(disk.centre, disk.radius);
             let [(n1, p1, e1), (n2, p2, e2), (n3, p3, e3)] =
-                locals.map(|g| g.residual(disk.centre, disk.radius));
+                [residual(0), residual(1), residual(2)];
             let (b, e) = (n2 - n1, n3 - n1);
             let d = b.cross(e);
             if d.is_nan() || d <= 12.0 * U {
@@ -529,7 +532,7 @@ fn unit_in_the_last_place(x: f64) -> f64 {
 /// The first of the points nearest to one.
 ///
 /// Which one it is cannot be foreseen, so nothing branches on it.
-#[inline]
+#[inline(always)]
 fn nearest(points: [Point; 6], to: Point) -> Point {
     let (mut least, mut first) = ((points[0] - to).norm2(), 0);
     for (k, &p) in points.iter().enumerate().skip(1) {
@@ -548,7 +551,7 @@ fn either(first: bool, points: [Point; 2]) -> Point {
 }
 
 /// The governors turned so that corners come first.
-#[inline]
+#[inline(always)]
 fn corners_first([a, b, c]: &[Governor; 3]) -> [&Governor; 3] {
     let is_corner = |g: &Governor| matches!(g, Governor::Corner(_));
     match (is_corner(a), is_corner(b), is_corner(c)) {
@@ -559,6 +562,7 @@ fn corners_first([a, b, c]: &[Governor; 3]) -> [&Governor; 3] {
 }
 
 /// Positions of an edge, a corner that ends it, and the third element.
+#[inline(always)]
 fn touching_end(governors: &[Governor; 3]) -> Option<(usize, usize, usize)> {
     for corner in 0..3 {
         let Governor::Corner(p) = governors[corner] else { continue };
@@ -573,6 +577,7 @@ fn touching_end(governors: &[Governor; 3]) -> Option<(usize, usize, usize)> {
     None
 }
 
+#[inline(always)]
 fn two_corners_and_edge(
     p: Point,
     q: Point,
@@ -599,7 +604,7 @@ fn two_corners_and_edge(
     Some((p, t * x + t.perp() * (r - hp), r))
 }
 
-#[inline]
+#[inline(always)]
 fn three_edges(ends: [Point; 6], t: [Point; 3], origin: Point) -> Option<(Point, Point, f64)> {
     let (across, along) = (t[1] - t[0], t[2] - t[0]);
     let spread = across.cross(along);

@@ -478,15 +478,14 @@ impl Search<'_> {
             (Ending::Normal(normal), Ending::Turn { edge }) => (edge, normal, l, 1.0),
         };
         // The one that turns stays while the other one leaves.
-        let leave = |this: &Self| {
-            let event = this.leave(normal, other)?;
-            Ok(event.filter(|e| this.advances(gap, &e.disk, -side)))
-        };
-        let Some(meet) = self.meet(gap, edge, side < 0.0) else { return leave(self) };
-        Ok(match self.reach(gap, normal, &meet.disk, side)? {
-            Reach::Past => Some(leave(self)?.ok_or(Unsure)?),
-            Reach::Within | Reach::Level => Some(meet),
-        })
+        let meet = self.meet(gap, edge, side < 0.0);
+        if let Some(meet) = &meet
+            && self.reach(gap, normal, &meet.disk, side)? != Reach::Past
+        {
+            return Ok(Some(*meet));
+        }
+        let event = self.leave(normal, other)?.filter(|e| self.advances(gap, &e.disk, -side));
+        if meet.is_some() && event.is_none() { Err(Unsure) } else { Ok(event) }
     }
 
     /// Which of two governors leaves first.

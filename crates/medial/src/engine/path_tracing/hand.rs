@@ -43,6 +43,7 @@ impl<'a> Hand<'a> {
     /// Follows the path that leaves `start`, which is keypoint number `from`, to the next keypoint
     /// that is no plain transition, and takes note of all but its last piece. Only with the open gaps
     /// it may end at a keypoint as known.
+    #[inline(always)]
     pub fn follow(
         &mut self,
         mut from: u32,

@@ -16,14 +16,14 @@ use super::contacts::Contacts;
 use super::front::Front;
 use super::search::{Found, Gap, Proposal, SLACK, Search, Start};
 use super::verify::{clear_cut, share};
-use crate::domain::{Corner, Domain, Edge, Site};
-use crate::geom::{Point, TouchingDisk, U};
+use crate::domain::{Corner, Domain, Site};
+use crate::geom::{TouchingDisk, U};
 
 /// Edges ahead up to which the tree is not asked.
-const FEW: u32 = 12;
+const FEW: u32 = 48;
 
 /// Edges after the right governor, and before the left one, that are looked at first otherwise.
-const NEAR: u32 = 4;
+const NEAR: u32 = 8;
 
 /// Elements beyond the end of an edge that are proposed in its place.
 const FOLLOWING: usize = 3;
@@ -95,6 +95,47 @@ impl Nearby {
     }
 }
 
+/// The edges of two runs, of at most 64 in all, that are within some distance of the centre of a disk.
+struct Within {
+    runs: [Range<u32>; 2],
+    /// A bit for each edge still to come.
+    mask: u64,
+}
+
+impl Within {
+    /// Which edges are near can rarely be foreseen, so nothing branches on it.
+    #[inline(always)]
+    fn new(domain: &Domain, runs: [Range<u32>; 2], disk: &TouchingDisk, reach: f64) -> Self {
+        let limit = reach * reach;
+        let of_run = |run: &Range<u32>| {
+            let edges = &domain.edges()[run.start as usize..run.end as usize];
+            edges.iter().enumerate().fold(0_u64, |mask, (k, edge)| {
+                let way = disk.centre - (edge.start - disk.origin);
+                mask | u64::from(edge.distance2(way) <= limit) << (k & 63)
+            })
+        };
+        let [first, second] = &runs;
+        let mask = of_run(first) | of_run(second) << (first.len() & 63);
+        Self { runs, mask }
+    }
+}
+
+impl Iterator for Within {
+    type Item = u32;
+
+    #[inline(always)]
+    fn next(&mut self) -> Option<u32> {
+        if self.mask == 0 {
+            return None;
+        }
+        let place = self.mask.trailing_zeros();
+        self.mask &= self.mask - 1;
+        let [first, second] = &self.runs;
+        let n_first = first.len() as u32;
+        Some(if place < n_first { first.start + place } else { second.start + (place - n_first) })
+    }
+}
+
 impl Search<'_> {
     /// The edges ahead, if they are few and all that a path can meet.
     #[inline]
@@ -104,7 +145,20 @@ impl Search<'_> {
 
     /// A proposal of what clearly cuts a disk of the path. What was passed is shortened if it lies on an
     /// earlier piece.
+    #[inline(never)]
     pub fn hit(
+        &mut self,
+        anchor: &Start,
+        front: Option<Front>,
+        disk: &TouchingDisk,
+        nearby: Nearby,
+    ) -> Option<Proposal> {
+        self.hit_here(anchor, front, disk, nearby)
+    }
+
+    /// The same, compiled for the place at hand.
+    #[inline(always)]
+    fn hit_here(
         &mut self,
         anchor: &Start,
         front: Option<Front>,
@@ -119,7 +173,7 @@ impl Search<'_> {
 
     /// A proposal that no edge nearby clearly cuts, from one that some may cut. What was passed is
     /// shortened if it lies on an earlier piece.
-    #[inline]
+    #[inline(never)]
     pub fn nearer(
         &mut self,
         anchor: &Start,
@@ -131,7 +185,7 @@ impl Search<'_> {
             end = beside;
         }
         for _ in 0..MOST_TIMES {
-            let Some(nearer) = self.hit(anchor, front, &end.disk, nearby) else { break };
+            let Some(nearer) = self.hit_here(anchor, front, &end.disk, nearby) else { break };
             end = nearer;
         }
         end
@@ -170,26 +224,10 @@ impl Search<'_> {
             s == Site::edge(k) || !s.is_edge() && (s.index() == k || s.index() == next)
         };
         let clear = disk.radius * (1.0 - SLACK);
-        let (runs, mut cutting) = (nearby.runs(domain, self.link), 0_u32);
-        let n_first = runs[0].len();
-        // Which edges cut it can rarely be foreseen, so nothing branches on it.
-        let mut note = |run: &Range<u32>, before: usize| {
-            for (k, edge) in domain.edges()[run.start as usize..run.end as usize].iter().enumerate()
-            {
-                let way = disk.centre - (edge.start - disk.origin);
-                cutting |= u32::from(edge.distance2(way) < clear * clear) << (before + k);
-            }
-        };
-        note(&runs[0], 0);
-        note(&runs[1], n_first);
+        let runs = nearby.runs(domain, self.link);
         let mut first: Option<(u32, i8)> = None;
         let mut least = f64::NAN;
-        while cutting != 0 {
-            let place = cutting.trailing_zeros();
-            cutting &= cutting - 1;
-            let n_first = n_first as u32;
-            let second = place >= n_first;
-            let k = if second { runs[1].start + (place - n_first) } else { runs[0].start + place };
+        for k in Within::new(domain, runs, disk, clear) {
             let edge = domain.edge(k);
             let Some(near) = clear_cut(disk, edge.start, || domain.end(k), edge) else {
                 continue;
@@ -215,6 +253,7 @@ impl Search<'_> {
 
     /// The proposal of an edge that cuts a disk of the path, if it comes before it, and the piece that it
     /// lies on.
+    #[inline(always)]
     fn before(
         &self,
         anchor: &Start,
@@ -264,30 +303,24 @@ impl Search<'_> {
         let far = disk.centre.x.abs() + disk.centre.y.abs();
         let doubt = disk.bound + U * (16.0 * far + 32.0 * self.largest + 2.0 * disk.radius);
         let reach = disk.radius + doubt;
-        let is_beyond = |way: Point| way.norm2() > reach * reach;
-        let is_clear = |k: u32, edge: &Edge| {
-            let way = disk.centre - (edge.start - disk.origin);
-            if edge.distance2(way) > reach * reach {
-                // A governor as far away is met beyond one of its ends.
-                return !has(Site::edge(k));
-            }
-            let along = edge.direction.dot(way);
+        // A governor that is not near is met beyond one of its ends.
+        let mut to_come = triple.iter().filter(|s| s.is_edge()).count();
+        for k in Within::new(domain, front.runs(), disk, reach) {
+            let edge = domain.edge(k);
+            let along = edge.direction.dot(disk.centre - (edge.start - disk.origin));
             let (at_start, at_end) = (has(Site::corner(k)), has(Site::corner(edge.next)));
-            if has(Site::edge(k)) {
+            let clear = if has(Site::edge(k)) {
+                to_come -= 1;
                 at_start || at_end || doubt < along && along < edge.length - doubt
             } else if at_start {
                 along < -doubt
-            } else if at_end {
-                along > edge.length + doubt
-            } else if along <= 0.0 {
-                is_beyond(way)
             } else {
-                along >= edge.length && is_beyond(disk.centre - (domain.end(k) - disk.origin))
+                at_end && along > edge.length + doubt
+            };
+            if !clear {
+                return false;
             }
-        };
-        front.runs().into_iter().all(|run| {
-            let edges = &domain.edges()[run.start as usize..run.end as usize];
-            run.zip(edges).all(|(k, edge)| is_clear(k, edge))
-        })
+        }
+        to_come == 0
     }
 }

@@ -94,12 +94,20 @@ impl Gap {
     }
 
     /// The bisector.
-    #[inline]
+    #[inline(always)]
     pub fn course(&self, domain: &Domain) -> &Course {
-        self.course.get_or_init(|| {
-            let (right, left) = (domain.governor(self.right), domain.governor(self.left));
-            Course::new(&right, &left, self.start.centre)
-        })
+        match self.course.get() {
+            Some(course) => course,
+            None => self.first_course(domain),
+        }
+    }
+
+    #[inline(always)]
+    fn first_course(&self, domain: &Domain) -> &Course {
+        // Mostly this is the first time, which `get_or_init` takes to be rare.
+        let (right, left) = (domain.governor(self.right), domain.governor(self.left));
+        let course = Course::new(&right, &left, self.start.centre);
+        self.course.get_or_init(|| course)
     }
 
     /// The disk of the path at a position, if the bisector reaches it.
@@ -325,7 +333,14 @@ impl<'a> Search<'a> {
     }
 
     /// The disk that would make `site` the third governor, if doubles find one ahead.
+    #[inline(never)]
     pub fn propose(&self, gap: &Gap, site: Site) -> Option<Proposal> {
+        self.proposal(gap, site)
+    }
+
+    /// The same, compiled for the place at hand.
+    #[inline(always)]
+    fn proposal(&self, gap: &Gap, site: Site) -> Option<Proposal> {
         if !self.may_be_third(gap, site) {
             return None;
         }
@@ -355,6 +370,7 @@ impl<'a> Search<'a> {
     /// The proposal of an edge that cuts a disk, if it comes before `last`: the disk at the end of the
     /// piece, which is that one or an earlier one. `near` tells which part of the edge is nearest: its
     /// start if negative, its end if positive, or the edge itself.
+    #[inline(always)]
     pub fn proposal_before(
         &self,
         gap: &Gap,
@@ -372,14 +388,21 @@ impl<'a> Search<'a> {
             0 => [0, 1, 2],
             1.. => [2, 0, 1],
         };
-        order.into_iter().filter_map(|k| sites[k]).find_map(|site| {
-            let p = self.propose(gap, site)?;
-            (p.position < limit && p.disk.radius <= largest).then_some(p)
-        })
+        for k in order {
+            if let Some(site) = sites[k]
+                && let Some(p) = self.proposal(gap, site)
+                && p.position < limit
+                && p.disk.radius <= largest
+            {
+                return Some(p);
+            }
+        }
+        None
     }
 
     /// Whether a site can be met ahead: not the governors, and not what their footpoints have
     /// left behind.
+    #[inline]
     pub fn may_be_third(&self, gap: &Gap, site: Site) -> bool {
         let (right, left) = (gap.right, gap.left);
         let left_behind = if site.is_edge() {

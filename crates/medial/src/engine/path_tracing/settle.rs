@@ -94,6 +94,7 @@ impl Search<'_> {
     }
 
     /// Drops what was passed from a link on, whose governors are then in `self.link`.
+    #[inline]
     pub fn go_back(&mut self, link: usize) {
         if let Some(passed) = self.passed.get(link) {
             self.link = (passed.right, passed.left);

@@ -433,6 +433,7 @@ impl<'s, 'a> Verify<'s, 'a> {
 
 /// About the share of the way to a disk after which an edge that cuts it is met: that of the disk
 /// through the edge's nearest point in the pencil of the disk at the start and this one.
+#[inline(always)]
 pub(super) fn share(
     domain: &Domain,
     start: &Start,
