@@ -101,7 +101,8 @@ impl ExactDisk {
             radius: near.radius,
             bound: near.error,
         };
-        if self.near.error <= SHARP * self.near.radius {
+        // Where integers too would not tell, both are infinite.
+        if self.near.error < SHARP * self.near.radius {
             return of(&self.near);
         }
         if let Some(near) = self.fine().map(Fine::near).filter(|n| n.error <= SHARP * n.radius) {

@@ -207,3 +207,18 @@ fn what_is_no_number_does_not_panic() {
         }
     }
 }
+
+#[test]
+fn a_disk_that_no_doubles_can_tell_is_rounded_from_its_integers() {
+    // Two edges of a side whose directions differ by 1e-26, and the side below.
+    let (a, b) = (0.999_999_999_999_999_8, 0.999_999_999_999_999_9);
+    let disk = disk([
+        edge(0.0, 0.0, b, 0.0),
+        edge(a, 0.4328, b, 0.433_599_999_999_999_9),
+        edge(b, 0.433_599_999_999_999_9, 1.0, 0.434_399_999_999_999_9),
+    ]);
+    let (rounded, (centre, radius)) = (disk.rounded(), disk.approximate());
+    assert!(rounded.bound < 1e-14 && (0.3..0.5).contains(&radius), "{rounded:?}");
+    let off = (rounded.position() - centre).norm() + (rounded.radius - radius).abs();
+    assert!(off <= 2.0 * rounded.bound, "{rounded:?} {centre:?} {radius}");
+}
