@@ -22,7 +22,7 @@
 use std::sync::OnceLock;
 
 use super::lanes::{FAN, Lanes, Node, Query, VANISHING, Wide};
-use super::rims::{Pinned, Rim, circle};
+use super::rims::{Hoop, Pinned, Rim, SOME, circle};
 use super::rounds::Round;
 use super::{Point, Rect, hilbert};
 
@@ -31,9 +31,6 @@ pub const LEAF: usize = FAN;
 
 /// Edges that share a circle; a multiple of those of a leaf.
 const RUN: u32 = 64;
-
-/// Edges of a leaf that are shown without another look at them.
-const SOME: u32 = 2;
 
 /// Children of a node that are entered without another look at them.
 const PAIR: u32 = 2;
@@ -127,6 +124,8 @@ pub struct CapsuleTree {
     rounds: OnceLock<Vec<Vec<Round>>>,
     /// The edges of each leaf relative to a circle, from then on.
     rims: OnceLock<Vec<Rim>>,
+    /// The runs below each level relative to circles, from then on.
+    hoops: OnceLock<Vec<Vec<Hoop>>>,
 }
 
 impl CapsuleTree {
@@ -197,7 +196,7 @@ impl CapsuleTree {
             runs = above;
         }
         let wide = Wide::detect();
-        let (rounds, rims) = (OnceLock::new(), OnceLock::new());
+        let (rounds, rims, hoops) = (OnceLock::new(), OnceLock::new(), OnceLock::new());
         Self {
             order,
             base,
@@ -211,6 +210,7 @@ impl CapsuleTree {
             wide,
             rounds,
             rims,
+            hoops,
         }
     }
 
@@ -232,7 +232,7 @@ impl CapsuleTree {
             };
             sizes.map(of).collect()
         });
-        self.rims.get_or_init(|| {
+        let rims = self.rims.get_or_init(|| {
             let mut rims = Vec::with_capacity(self.leaves.len());
             let at = |k: u32| ends(self.base + k);
             for run in (0..self.n_edges).step_by(RUN as usize) {
@@ -246,6 +246,16 @@ impl CapsuleTree {
                 }
             }
             rims
+        });
+        self.hoops.get_or_init(|| {
+            let mut levels: Vec<Vec<Hoop>> = Vec::with_capacity(self.levels.len());
+            for _ in &self.levels {
+                levels.push(match levels.last() {
+                    None => rims.chunks(FAN).map(Hoop::over_rims).collect(),
+                    Some(below) => below.chunks(FAN).map(Hoop::over_hoops).collect(),
+                });
+            }
+            levels
         });
     }
 
@@ -322,6 +332,13 @@ impl CapsuleTree {
                 let node = &self.nodes[(self.levels[level as usize - 1] + number) as usize];
                 mask &= node.lanes.within(&aim.query, &node.width, self.wide);
                 mask &= 0xff;
+                if mask.count_ones() > PAIR
+                    && let Some(hoops) = self.hoops.get()
+                    && let Some(disk) = look.pinned()
+                {
+                    let hoop = &hoops[level as usize - 1][number as usize];
+                    mask = hoop.sift(disk, mask, self.wide);
+                }
                 if mask.count_ones() > PAIR
                     && let Some(rounds) = self.rounds.get()
                 {

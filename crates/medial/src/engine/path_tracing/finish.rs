@@ -118,7 +118,7 @@ impl Traced {
     pub fn add_transition(&mut self, domain: &Domain, passed: &Passed) -> Result<u32, EngineError> {
         let [a, b, c, _] = passed.contacts;
         let own = passed.fixed.then_some(&passed.disk);
-        let disk = Fixed { own, found: &passed.disk, triple: [a, b, c] };
+        let disk = Fixed { own, sought: false, found: &passed.disk, triple: [a, b, c] };
         let kind = KeypointKind::Transition;
         if passed.n_contacts == 3 {
             return self.add_disk(domain, &disk, kind, &three_from_least([a, b, c]));

@@ -88,12 +88,12 @@ impl<'a> Hand<'a> {
         fixed: bool,
     ) -> Result<u32, EngineError> {
         // The position depends on the governors only, not on how the keypoint was found.
-        let own = match *list {
-            _ if fixed => Some(*disk),
-            [a, b, c] => TouchingDisk::touching(&self.domain.governors([a, b, c])),
-            _ => facing(self.domain, list),
+        let (own, sought) = match *list {
+            _ if fixed => (Some(*disk), false),
+            [a, b, c] => (TouchingDisk::touching(&self.domain.governors([a, b, c])), true),
+            _ => (facing(self.domain, list), false),
         };
-        let disk = Fixed { own: own.as_ref(), found: disk, triple };
+        let disk = Fixed { own: own.as_ref(), sought, found: disk, triple };
         self.traced.add_disk(self.domain, &disk, KeypointKind::Junction, list)
     }
 

@@ -272,20 +272,27 @@ impl Search<'_> {
 
     /// The end of a path that was proposed, if doubles can tell that nothing of the few edges ahead comes
     /// before it.
+    ///
+    /// # Errors
+    /// Else the certified disk of the proposal, if doubles have one.
     #[inline]
-    pub fn end_among_few(&mut self, front: Front, end: &Proposal) -> Option<Found> {
+    pub fn end_among_few(
+        &mut self,
+        front: Front,
+        end: &Proposal,
+    ) -> Result<Found, Option<TouchingDisk>> {
         let (right, left) = self.link;
         let triple = [right, end.site, left];
         let disk = if end.disk.bound.is_finite() {
             end.disk
         } else {
-            TouchingDisk::touching(&self.domain.governors(triple))?
+            TouchingDisk::touching(&self.domain.governors(triple)).ok_or(None)?
         };
         if disk.bound > POOR * disk.radius || !self.is_clear_of_few(front, &triple, &disk) {
-            return None;
+            return Err(Some(disk));
         }
         self.leave_out_those_in(&triple);
-        Some(Found::Disk { disk, triple, contacts: Contacts::from_slice(&triple), fixed: true })
+        Ok(Found::Disk { disk, triple, contacts: Contacts::from_slice(&triple), fixed: true })
     }
 
     /// Whether a certified disk of three governors touches them within their zones, and nothing else

@@ -29,6 +29,8 @@ const FEW_RUNS: usize = 6;
 pub(super) struct Fixed<'a> {
     /// The disk, if it depends on the governors only, and not on how it was found.
     pub own: Option<&'a TouchingDisk>,
+    /// Whether that is what doubles find for the governors, which are three.
+    pub sought: bool,
     /// The disk within its bound.
     pub found: &'a TouchingDisk,
     /// Sites that define it exactly.
@@ -51,6 +53,8 @@ pub(super) fn position(domain: &Domain, list: &[Site], disk: &Fixed<'_>) -> Opti
     // alone.
     let start = if disk.own.is_some() && list.len() == 3 {
         Some(found)
+    } else if disk.sought && disk.own.is_none() && triple.iter().all(|site| list.contains(site)) {
+        None
     } else {
         let disk = TouchingDisk::touching(&governors);
         let start = disk.map(|disk| Start::at(&disk));
@@ -71,7 +75,7 @@ pub(super) fn position(domain: &Domain, list: &[Site], disk: &Fixed<'_>) -> Opti
     // The same for every rotation of the three, bit for bit.
     let exact = |&[a, b, c]: &[Site; 3]| {
         let turned = [[a, b, c], [b, c, a], [c, a, b]].into_iter().min_by_key(|t| t[0]);
-        ExactDisk::new(turned?.map(|s| domain.element(s)))
+        ExactDisk::precise(turned?.map(|s| domain.element(s)))
     };
     exact(&triple).or_else(|| exact(&disk.triple)).map(|disk| disk.rounded_once())
 }

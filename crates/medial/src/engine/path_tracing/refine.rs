@@ -188,6 +188,16 @@ fn at_end<const F: bool>(
 /// The disk that Newton steps lead to.
 #[inline(always)]
 fn steps<const F: bool>(governors: &[Governor; 3], centre: Point, radius: f64) -> Option<Refined> {
+    // As below, for normals that no step changes.
+    if let [
+        Governor::Edge { direction: t1, .. },
+        Governor::Edge { direction: t2, .. },
+        Governor::Edge { direction: t3, .. },
+    ] = *governors
+        && (t2 - t1).cross(t3 - t1) <= LEAST_SPREAD
+    {
+        return None;
+    }
     let away = |p: Point| (p - centre).norm2();
     let anchors = [0, 1, 2].map(|k| match governors[k] {
         Governor::Corner(p) => p,

@@ -111,6 +111,8 @@ impl Search<'_> {
     ) -> Option<Found> {
         // The exact disk of the proposal, where only exact arithmetic made it.
         let mut exact = None;
+        // Its certified disk, if doubles have one, where they were asked already.
+        let mut sought = None;
         if !std::mem::take(&mut self.from_holes)
             && let Some((link, nearer)) = self.among_holes(anchor, front, &end.disk)
         {
@@ -122,8 +124,9 @@ impl Search<'_> {
             if few.len() > 3 || !end.site.is_edge() {
                 end = self.nearer(&anchor, front, end, Nearby::All(few));
             }
-            if let Some(found) = self.end_among_few(few, &end) {
-                return Some(found);
+            match self.end_among_few(few, &end) {
+                Ok(found) => return Some(found),
+                Err(disk) => sought = Some(disk),
             }
         } else if self.luck.promises() {
             let site = end.site;
@@ -138,12 +141,13 @@ impl Search<'_> {
             let here = start_after(&self.passed, &anchor);
             let gap = Gap::new(right, left, here, front);
             let triple = gap.triple(end.site);
+            let sought = sought.take();
             let mut by_form = exact.is_none();
             let disk = if end.disk.bound.is_finite() {
                 end.disk
             } else {
                 let governors = self.domain.governors(triple);
-                let found = TouchingDisk::touching(&governors);
+                let found = sought.unwrap_or_else(|| TouchingDisk::touching(&governors));
                 let pinned = || self.pinned(&triple).map(|disk| TouchingDisk::from(&disk));
                 match found.map_or_else(pinned, |disk| Some(self.sharper(&triple, disk))) {
                     Some(disk) if disk.bound <= POOR * disk.radius => {

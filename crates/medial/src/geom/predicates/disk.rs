@@ -66,6 +66,18 @@ impl ExactDisk {
         Some(Self { form: Some(form).into(), ..Self::known(elements, near) })
     }
 
+    /// The same disk, for its position: pairs of doubles first.
+    pub(crate) fn precise(elements: [Element; 3]) -> Option<Self> {
+        let elements = corners_first(elements);
+        let fine = Near::guessed(&elements).and_then(|guess| Fine::new(&elements, &guess.0));
+        match fine {
+            Some(fine) => {
+                Some(Self { fine: Some(fine).into(), ..Self::known(elements, fine.near()) })
+            }
+            None => Self::new(elements),
+        }
+    }
+
     /// The disk of three elements that was certified in doubles.
     pub(crate) fn of_certified(elements: [Element; 3], disk: &TouchingDisk) -> Self {
         Self::known(corners_first(elements), Near::from(disk))

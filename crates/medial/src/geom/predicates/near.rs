@@ -34,6 +34,14 @@ impl Near {
     /// The disk touching three elements where doubles find one, and whether they alone can prove that
     /// there is one; otherwise its error is infinite.
     pub(super) fn found(elements: &[Element; 3]) -> Option<Self> {
+        let (guess, governors) = Self::guessed(elements)?;
+        let Self { origin, centre, radius, error } = guess;
+        let disk = TouchingDisk { origin, centre, radius, bound: error };
+        Some(disk.certified(&governors).map_or(guess, |disk| Self::from(&disk)))
+    }
+
+    /// The disk that doubles guess, with an infinite error, and the elements as they compute with them.
+    pub(super) fn guessed(elements: &[Element; 3]) -> Option<(Self, [Governor; 3])> {
         let governors = elements.map(|element| match element {
             Element::Corner(p) => Governor::Corner(p),
             Element::Edge(start, end) => {
@@ -47,7 +55,7 @@ impl Near {
             Element::Corner(p) | Element::Edge(p, _) => p,
         };
         let guess = TouchingDisk::guess(&governors, near)?;
-        Some(Self::from(&guess.certified(&governors).unwrap_or(guess)))
+        Some((Self::from(&guess), governors))
     }
 
     /// Whether there certainly is such a disk.
