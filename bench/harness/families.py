@@ -12,6 +12,10 @@ SHAPES = [
 # The size to which time an edge is compared.
 BASE = 10_000
 
+# How many times the limit a program must be expected to take, by its time an edge at the size before,
+# not to be run.
+HOPELESS = 1.5
+
 
 def rows(commands, rivals, options, scratch):
     """Yields the lines of the table as they are ready."""
@@ -55,7 +59,11 @@ def rows(commands, rivals, options, scratch):
 
 
 def compare(commands, rivals, options, scratch, shape, size, slow):
-    """The results on one shape by program; `slow` holds those that failed at a smaller size."""
+    """The results on one shape by program.
+
+    `slow` holds those that failed at a smaller size, or will take far longer than the limit at the
+    next one; it is added to.
+    """
     path = scratch / "shape.txt"
     with open(path, "w", encoding="utf-8") as file:
         run([*commands["medial"], "draw", shape, str(size)], 600, stdout=file)
@@ -64,8 +72,11 @@ def compare(commands, rivals, options, scratch, shape, size, slow):
     turns = {name: turn for name, turn in turns.items() if name not in slow}
     results = by_turns(turns, options.rounds, options.limit, options.budget)
     for name, result in results.items():
+        larger = min((s for s in options.sizes if s > size), default=0)
         if not isinstance(result, Result):
             slow[name] = Unfinished("-")
+        elif result.time / result.edges * larger > HOPELESS * options.limit * 1e9:
+            slow[name] = Unfinished(f"> {options.limit} s")
     edges = {result.edges for result in results.values() if isinstance(result, Result)}
     if len(edges) > 1:
         sys.exit(f"error: {shape} {size}: the programs read different polygons")
