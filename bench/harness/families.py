@@ -69,6 +69,9 @@ def compare(commands, rivals, options, scratch, shape, size, slow):
         run([*commands["medial"], "draw", shape, str(size)], 600, stdout=file)
     turns = {"medial": ([*commands["medial"], "time"], path)}
     turns |= {name: (commands[name], path) for name in rivals}
+    if options.slow_up_to and size > options.slow_up_to:
+        for name in set(rivals) - {"boost", "delaunator"}:
+            slow.setdefault(name, Unfinished(""))
     turns = {name: turn for name, turn in turns.items() if name not in slow}
     results = by_turns(turns, options.rounds, options.limit, options.budget)
     for name, result in results.items():

@@ -15,7 +15,7 @@ A busy machine moves them; ratios move less, because all programs take turns.
 """
 
 ROUNDS = """This page: up to {rounds} rounds; a program that has spent {budget} seconds on an input skips the rounds left, so large inputs of slow programs were run once or twice.
-`> {limit} s` is a run that was stopped, or not begun because by its time an edge at the size before it would take half as much again, `crash` one that ended itself; larger sizes are not tried then, which `-` shows.
+`> {limit} s` is a run that was stopped, or not begun because by its time an edge at the size before it would take half as much again, `crash` one that ended itself; larger sizes are not tried then, which `-` shows; where there is nothing, a program was not asked for that size.
 """
 
 SHAPES = """

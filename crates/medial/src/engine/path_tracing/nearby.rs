@@ -16,7 +16,7 @@ use super::contacts::Contacts;
 use super::front::Front;
 use super::search::{Found, Gap, Proposal, SLACK, Search, Start};
 use super::verify::{clear_cut, share};
-use crate::domain::{Corner, Domain, Site};
+use crate::domain::{Corner, Domain, Edge, Site};
 use crate::geom::{TouchingDisk, U};
 
 /// Edges ahead up to which the tree is not asked.
@@ -95,7 +95,14 @@ impl Nearby {
     }
 }
 
+/// Distance from the centre of a disk within which an edge clearly cuts it.
+#[inline(always)]
+fn clear(disk: &TouchingDisk) -> f64 {
+    disk.radius * (1.0 - SLACK)
+}
+
 /// The edges of two runs, of at most 64 in all, that are within some distance of the centre of a disk.
+#[derive(Clone)]
 struct Within {
     runs: [Range<u32>; 2],
     /// A bit for each edge still to come.
@@ -106,17 +113,34 @@ impl Within {
     /// Which edges are near can rarely be foreseen, so nothing branches on it.
     #[inline(always)]
     fn new(domain: &Domain, runs: [Range<u32>; 2], disk: &TouchingDisk, reach: f64) -> Self {
-        let limit = reach * reach;
         let of_run = |run: &Range<u32>| {
             let edges = &domain.edges()[run.start as usize..run.end as usize];
             edges.iter().enumerate().fold(0_u64, |mask, (k, edge)| {
-                let way = disk.centre - (edge.start - disk.origin);
-                mask | u64::from(edge.distance2(way) <= limit) << (k & 63)
+                mask | u64::from(is_within(edge, disk, reach)) << (k & 63)
             })
         };
         let [first, second] = &runs;
         let mask = of_run(first) | of_run(second) << (first.len() & 63);
         Self { runs, mask }
+    }
+
+    /// Leaves out those that are not within some distance of the centre of another disk.
+    #[inline(always)]
+    fn keep(&mut self, domain: &Domain, disk: &TouchingDisk, reach: f64) {
+        let mut left = self.mask;
+        while left != 0 {
+            let place = left.trailing_zeros();
+            left &= left - 1;
+            let within = is_within(domain.edge(self.edge_at(place)), disk, reach);
+            self.mask &= !(u64::from(!within) << place);
+        }
+    }
+
+    #[inline(always)]
+    fn edge_at(&self, place: u32) -> u32 {
+        let [first, second] = &self.runs;
+        let n_first = first.len() as u32;
+        if place < n_first { first.start + place } else { second.start + (place - n_first) }
     }
 }
 
@@ -130,10 +154,13 @@ impl Iterator for Within {
         }
         let place = self.mask.trailing_zeros();
         self.mask &= self.mask - 1;
-        let [first, second] = &self.runs;
-        let n_first = first.len() as u32;
-        Some(if place < n_first { first.start + place } else { second.start + (place - n_first) })
+        Some(self.edge_at(place))
     }
+}
+
+#[inline(always)]
+fn is_within(edge: &Edge, disk: &TouchingDisk, reach: f64) -> bool {
+    edge.distance2(disk.centre - (edge.start - disk.origin)) <= reach * reach
 }
 
 impl Search<'_> {
@@ -153,19 +180,20 @@ impl Search<'_> {
         disk: &TouchingDisk,
         nearby: Nearby,
     ) -> Option<Proposal> {
-        self.hit_here(anchor, front, disk, nearby)
+        let near = Within::new(self.domain, nearby.runs(self.domain, self.link), disk, clear(disk));
+        self.hit_among(anchor, front, disk, near)
     }
 
-    /// The same, compiled for the place at hand.
+    /// The same among these edges.
     #[inline(always)]
-    fn hit_here(
+    fn hit_among(
         &mut self,
         anchor: &Start,
         front: Option<Front>,
         disk: &TouchingDisk,
-        nearby: Nearby,
+        near: Within,
     ) -> Option<Proposal> {
-        let (edge, near) = self.first_cut(anchor, disk, nearby)?;
+        let (edge, near) = self.first_cut(anchor, disk, near)?;
         let (link, hit) = self.before(anchor, front, disk, edge, near)?;
         self.go_back(link);
         Some(hit)
@@ -184,9 +212,16 @@ impl Search<'_> {
         if let Some(beside) = self.beyond_end(anchor, front, &end) {
             end = beside;
         }
+        let domain = self.domain;
+        let runs = nearby.runs(domain, self.link);
+        let mut near = Within::new(domain, runs, &end.disk, clear(&end.disk));
         for _ in 0..MOST_TIMES {
-            let Some(nearer) = self.hit_here(anchor, front, &end.disk, nearby) else { break };
+            let Some(nearer) = self.hit_among(anchor, front, &end.disk, near.clone()) else {
+                break;
+            };
             end = nearer;
+            // What cuts an earlier disk of a path, and not the empty one at its start, cuts this one.
+            near.keep(domain, &end.disk, clear(&end.disk));
         }
         end
     }
@@ -217,17 +252,15 @@ impl Search<'_> {
     /// The edge that looks as if it were met first of those that clearly cut a disk, and which part of it
     /// is nearest.
     #[inline(always)]
-    fn first_cut(&self, anchor: &Start, disk: &TouchingDisk, nearby: Nearby) -> Option<(u32, i8)> {
+    fn first_cut(&self, anchor: &Start, disk: &TouchingDisk, near: Within) -> Option<(u32, i8)> {
         let domain = self.domain;
         let (right, left) = self.link;
         let own = |s: Site, k: u32, next: u32| {
             s == Site::edge(k) || !s.is_edge() && (s.index() == k || s.index() == next)
         };
-        let clear = disk.radius * (1.0 - SLACK);
-        let runs = nearby.runs(domain, self.link);
         let mut first: Option<(u32, i8)> = None;
         let mut least = f64::NAN;
-        for k in Within::new(domain, runs, disk, clear) {
+        for k in near {
             let edge = domain.edge(k);
             let Some(near) = clear_cut(disk, edge.start, || domain.end(k), edge) else {
                 continue;
