@@ -5,13 +5,18 @@ mod support;
 use std::path::PathBuf;
 
 use medial::check;
+use medial::domain::{Domain, Options};
 use medial::engine::path_tracing;
 use support::{brute_force, compare, shapes};
 
+fn read(name: &str) -> String {
+    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../fixtures").join(name);
+    std::fs::read_to_string(&path).unwrap_or_else(|e| panic!("{name}: {e}"))
+}
+
 /// The axis of a fixture has no defect and is the one of all triples.
 fn is_right(name: &str) {
-    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../fixtures").join(name);
-    let text = std::fs::read_to_string(&path).unwrap_or_else(|e| panic!("{name}: {e}"));
+    let text = read(name);
     let domain = shapes::wkt(&text);
     let axis = path_tracing(&domain).unwrap_or_else(|e| panic!("{name}: {e}"));
     let defects = check::defects(&domain, &axis).defects;
@@ -49,4 +54,19 @@ fn a_chain_goes_no_further_than_once_round_a_tiny_hole() {
 #[test]
 fn a_tiny_hole_in_a_sharp_corner_is_met() {
     is_right("issue_3_hole_hidden_in_a_corner.wkt");
+}
+
+#[test]
+fn disks_far_outside_that_cut_each_other_do_not_go_on_for_ever() {
+    is_right("issue_3_disks_far_outside_cut_each_other.wkt");
+}
+
+#[test]
+fn an_edge_of_another_component_is_not_met_from_behind() {
+    let text = read("issue_3_another_component_touched_from_behind.wkt");
+    let options = Options { regroup: true, ..Options::default() };
+    let domain = Domain::from_polygons(&shapes::parse(&text), &options).unwrap();
+    let axis = path_tracing(&domain).unwrap();
+    let defects = check::defects(&domain, &axis).defects;
+    assert!(defects.is_empty(), "{defects:?}");
 }

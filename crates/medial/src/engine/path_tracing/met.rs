@@ -15,8 +15,8 @@ pub(super) struct Met {
 const FEW: usize = 16;
 
 impl Met {
-    /// Adds a site unless it is there.
-    pub fn insert(&mut self, site: Site) {
+    /// Adds a site unless it is there; tells whether it was not.
+    pub fn insert(&mut self, site: Site) -> bool {
         let is_new = if self.list.len() < FEW {
             !self.list.contains(&site)
         } else {
@@ -28,6 +28,7 @@ impl Met {
         if is_new {
             self.list.push(site);
         }
+        is_new
     }
 
     /// Takes a site out.

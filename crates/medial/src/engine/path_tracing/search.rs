@@ -422,6 +422,8 @@ impl<'a> Search<'a> {
         let mut seen = Met::default();
         // How many of them the last resort has weighed; all there are, if the greatest number.
         let mut known = 0;
+        // Sites whose disks were looked into exactly, and whether all sites have been weighed since.
+        let (mut asked, mut weighed) = (Met::default(), false);
         for round in 0..MOST_TRIES {
             self.watch.check()?;
             let Some(proposal) = best else {
@@ -441,6 +443,17 @@ impl<'a> Search<'a> {
                 continue;
             };
             let floating = round < FLOATING_TRIES;
+            if !floating && !asked.insert(proposal.site) {
+                // Disks far outside the polygon may cut each other: what cuts one need not come before it.
+                if std::mem::replace(&mut weighed, true) {
+                    return Err(self.broken(gap));
+                }
+                asked = Met::default();
+                let all = self.everything(gap);
+                let first = self.exact_first(gap, &all).ok_or_else(|| self.broken(gap))?;
+                best = self.proposal_or_exact(gap, first);
+                continue;
+            }
             let position = gap.course(self.domain).position(&disk);
             let start = (&gap.start, &[][..]);
             let mut verify = Verify::certified(self, gap, start, triple, disk, floating);

@@ -248,10 +248,14 @@ impl<'s, 'a> Verify<'s, 'a> {
         if rest > error {
             return true;
         }
-        let length = search.domain.edge(edge).length;
-        let within = near == 0 && x > doubt && x < length * (1.0 - 8.0 * U) - doubt;
+        let record = search.domain.edge(edge);
+        let within = near == 0 && x > doubt && x < record.length * (1.0 - 8.0 * U) - doubt;
+        // From behind, where another component touches, the distance counts the other way round.
+        let d = &self.certified;
+        let in_front = record.direction.cross(d.centre - (record.start - d.origin)) > doubt;
         if rest >= -error
             || !within
+            || !in_front
             || self.link != link
             || !search.may_be_third(self.gap, Site::edge(edge))
         {
