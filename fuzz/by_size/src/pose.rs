@@ -137,7 +137,7 @@ fn hair(random: &mut Random, polygons: &mut Polygons) -> String {
     format!("a hair off in {share}")
 }
 
-/// Shifts, scales and mirrors.
+/// Shifts, scales, squeezes and mirrors.
 fn place(random: &mut Random, polygons: &mut Polygons, exact: bool) -> Option<String> {
     let (low, high) = extent(polygons);
     let size = (high.x - low.x).max(high.y - low.y);
@@ -145,6 +145,11 @@ fn place(random: &mut Random, polygons: &mut Polygons, exact: bool) -> Option<St
     let fine = 10f64.powf(random.between(0.0, 3.0));
     let way = random.below(if exact { 8 } else { 12 });
     Some(match way {
+        4 => {
+            let power = random.below(61) as i32;
+            each(polygons, |p| Point::new(p.x * 2f64.powi(-power), p.y));
+            format!("squeezed by 2^{power}")
+        }
         5 => {
             each(polygons, |p| Point::new(p.y, p.x));
             "mirrored".into()

@@ -53,6 +53,12 @@ impl<'a> Watch<'a> {
         if self.is_over() { Err(self.or(EngineError::Cancelled)) } else { Ok(()) }
     }
 
+    /// The same with a look at the clock: between stages that take long.
+    pub fn check_now(&self) -> Result<(), EngineError> {
+        self.left.set(0);
+        self.check()
+    }
+
     /// Why the engine stops: a limit, or else this.
     pub fn or(&self, error: EngineError) -> EngineError {
         self.over.get().unwrap_or(error)
@@ -82,6 +88,15 @@ mod tests {
     fn a_watch_without_limits_never_ends() {
         let watch = Watch::new(&Options::default());
         assert!((0..1000).all(|_| watch.check().is_ok()));
+    }
+
+    #[test]
+    fn between_stages_the_limits_are_looked_at_each_time() {
+        let cancel = AtomicBool::new(false);
+        let watch = Watch::new(&Options { cancel: Some(&cancel), ..Options::default() });
+        assert_eq!((watch.check_now(), watch.check_now()), (Ok(()), Ok(())));
+        cancel.store(true, Ordering::Relaxed);
+        assert_eq!(watch.check_now(), Err(EngineError::Cancelled));
     }
 
     #[test]

@@ -146,15 +146,19 @@ impl Traced {
 
     /// The axis, with the sites that govern something numbered in boundary order.
     pub fn finish(mut self, domain: &Domain, watch: &Watch<'_>) -> Result<MedialAxis, EngineError> {
-        watch.check()?;
+        watch.check_now()?;
         self.keypoints.shrink();
         self.paths.shrink();
+        watch.check_now()?;
         let number = Numbers::new(2 * domain.edges().len(), |marks| {
             self.keypoints.show_governors(|site| marks.mark(site));
         });
+        watch.check_now()?;
         self.keypoints.renumber(|site| number.of(site));
+        watch.check_now()?;
         self.paths.renumber(|site| number.of(site));
         let sites = site_table(domain, &number)?;
+        watch.check_now()?;
         drop(number);
         Ok(axis_of(sites, self.keypoints, self.paths))
     }

@@ -146,6 +146,7 @@ impl<'a> Tracer<'a> {
             let Some(walks) = self.polygons.get(self.current).cloned() else { return Ok(false) };
             self.current += 1;
             self.enter_polygon(walks);
+            self.hand.watch.check_now()?;
         }
     }
 

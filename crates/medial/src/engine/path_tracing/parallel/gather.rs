@@ -13,6 +13,9 @@ use crate::domain::{Domain, Site};
 use crate::engine::EngineError;
 use crate::engine::watch::Watch;
 
+/// Sites after which the clock is looked at.
+const MANY: usize = 1 << 16;
+
 /// A number of no site.
 const NONE: u32 = u32::MAX;
 
@@ -39,7 +42,7 @@ pub(super) fn gather(
         copied.keypoints.show_governors(|site| numbers[site as usize].store(0, Ordering::Relaxed));
         copied
     });
-    watch.check()?;
+    watch.check_now()?;
     let governs = |sites: Range<u32>| {
         sites.into_iter().any(|s| numbers[s as usize].load(Ordering::Relaxed) != NONE)
     };
@@ -61,7 +64,7 @@ pub(super) fn gather(
         }
         sites
     });
-    watch.check()?;
+    watch.check_now()?;
     let starts = |lengths: &mut dyn Iterator<Item = usize>| -> Vec<u32> {
         lengths.scan(0, |sum, length| Some(std::mem::replace(sum, *sum + length) as u32)).collect()
     };
@@ -77,20 +80,25 @@ pub(super) fn gather(
         }
         group
     });
-    watch.check()?;
+    watch.check_now()?;
     let (mut keypoints, mut paths) = (KeypointTable::default(), Vec::new());
     keypoints.reserve(groups.iter().map(|group| group.keypoints.len() as usize).sum());
     for group in groups {
         keypoints.copy(&group.keypoints, 0..group.keypoints.len());
         paths.push(group.paths);
     }
+    watch.check_now()?;
     let packed = each(threads, paths, |paths| PathTable::of(paths.into_iter(), &keypoints));
     let mut paths = PathTable::with_room(packed.iter().map(|paths| paths.len() as usize).sum());
     packed.iter().for_each(|some| paths.append(some));
+    watch.check_now()?;
     let n_sites = sites.iter().map(Vec::len).sum();
     let n_edges = domain.edges().len();
     let mut table = SiteTable::with_room(n_sites, n_edges, domain.walks().len());
-    for site in sites.into_iter().flatten() {
+    for (k, site) in sites.into_iter().flatten().enumerate() {
+        if k % MANY == 0 {
+            watch.check_now()?;
+        }
         table.push(&site).ok_or(EngineError::TooLarge { n_edges })?;
     }
     table.shrink();
