@@ -146,7 +146,7 @@ fn place(random: &mut Random, polygons: &mut Polygons, exact: bool) -> Option<St
     let way = random.below(if exact { 8 } else { 12 });
     Some(match way {
         4 => {
-            let power = random.below(61) as i32;
+            let power = random.below(21) as i32;
             each(polygons, |p| Point::new(p.x * 2f64.powi(-power), p.y));
             format!("squeezed by 2^{power}")
         }
