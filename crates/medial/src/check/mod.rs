@@ -14,14 +14,17 @@
 //! 4. Along the boundary, see that the footpoints tile every site.
 //! 5. Compare counts and areas with what the domain demands.
 //!
-//! In a complete axis steps 3 and 4 and the contacts of step 2 leave no room for anything nearer: each
-//! site has a cell between it and its paths, two cells meet at each path, from both sides, and cells
-//! fill the full turn around each keypoint. Glued together they are a surface that lies in the plane
-//! without folds and has the boundary of the domain as its own, so it is the domain, covered once. The
-//! distance to the site of one's own cell is continuous over it, so it shrinks no faster than one goes;
-//! on the straight way to the nearest site it shrinks to zero, so it is no larger than that way. Looking
-//! at what is near each disk finds faults earlier and names them better; but where hundreds of edges are
-//! near one, as in smooth shapes, it stops there.
+//! In a complete axis steps 3 and 4 and the contacts of step 2 leave no room for anything nearer:
+//! each site has a cell between it and its paths, two cells meet at each path, from both sides, and
+//! cells fill the full turn around each keypoint. Glued together they are a compact surface that
+//! lies in the plane without folds and has the boundary of the domain as its own, run through in
+//! its direction. So it covers each point as often as that boundary winds around it: once inside,
+//! never outside. That rules out spokes that turn around a corner beyond its zone as well, and
+//! paths that close around one. It is the domain, covered once. The distance to the site of one's
+//! own cell is continuous over it, so it shrinks no faster than one goes; on the straight way to
+//! the nearest site it shrinks to zero, so it is no larger than that way. Looking at what is near
+//! each disk finds faults earlier and names them better; but where hundreds of edges are near one,
+//! as in smooth shapes, it stops there.
 //!
 //! Bounds in double-double decide nearly everything, exact numbers what is left; floats alone are
 //! used only where a failure is sure in spite of rounding.
