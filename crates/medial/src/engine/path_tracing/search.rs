@@ -96,14 +96,9 @@ impl Gap {
     /// The bisector.
     #[inline(always)]
     pub fn course(&self, domain: &Domain) -> &Course {
-        match self.course.get() {
-            Some(course) => course,
-            None => self.first_course(domain),
+        if let Some(course) = self.course.get() {
+            return course;
         }
-    }
-
-    #[inline(always)]
-    fn first_course(&self, domain: &Domain) -> &Course {
         // Mostly this is the first time, which `get_or_init` takes to be rare.
         let (right, left) = (domain.governor(self.right), domain.governor(self.left));
         let course = Course::new(&right, &left, self.start.centre);
