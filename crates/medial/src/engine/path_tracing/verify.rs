@@ -35,6 +35,9 @@ pub(super) enum Verdict {
 /// Edges that cut a disk after which it is given up.
 const MANY_CUT: usize = 64;
 
+/// Share of the radius of a proposal by which all that clearly cuts it does so.
+const CLEAR: f64 = 0.999 * SLACK;
+
 /// An edge that cuts a disk.
 #[derive(Clone, Copy, Debug, Default)]
 struct Cutting {
@@ -128,6 +131,7 @@ impl<'s, 'a> Verify<'s, 'a> {
         let triple = [gap.right, gap.right, gap.left];
         let mut verify = Self::certified(search, gap, start, triple, disk, true);
         verify.hunting = true;
+        verify.scope.reach -= CLEAR * disk.radius;
         verify
     }
 
@@ -168,6 +172,7 @@ impl<'s, 'a> Verify<'s, 'a> {
         self.hunted = None;
         let start = self.anchor;
         self.scope = scope(start.centre, start.radius, start.doubt, &disk);
+        self.scope.reach -= CLEAR * disk.radius;
     }
 
     /// Takes note of an edge that cuts the disk looked into; `near` tells which part of it is nearest:
@@ -516,7 +521,7 @@ impl Look for Verify<'_, '_> {
         if self.hunting {
             let disk = &self.disk;
             // Only what clearly cuts it counts.
-            let bound = -SLACK / 2.0 * disk.radius;
+            let bound = -CLEAR * disk.radius;
             let hunted = || Pinned::from(&TouchingDisk { bound, ..*disk });
             return Some(self.hunted.get_or_insert_with(hunted));
         }
