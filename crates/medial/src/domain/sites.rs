@@ -35,6 +35,16 @@ impl Domain {
         }
     }
 
+    /// The sites of some edges: each edge, and the corner at its start unless that is convex.
+    pub(crate) fn sites_among(
+        &self,
+        edges: impl IntoIterator<Item = u32>,
+    ) -> impl Iterator<Item = Site> {
+        let both = |k| [Site::corner(k), Site::edge(k)];
+        let is_site = |s: &Site| s.is_edge() || self.edge(s.index()).corner != Corner::Convex;
+        edges.into_iter().flat_map(both).filter(is_site)
+    }
+
     /// The element after a site along the boundary, with convex corners passed over.
     #[inline]
     #[must_use]

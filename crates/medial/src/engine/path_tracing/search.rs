@@ -6,6 +6,7 @@
 //! unless a whole ring lies between its disk and the one at the start ([`super::rings`]).
 
 use std::cell::{Cell, OnceCell};
+use std::collections::BTreeSet;
 use std::sync::{Arc, OnceLock};
 
 use super::chain::Passed;
@@ -287,8 +288,12 @@ impl<'a> Search<'a> {
             if let Found::Disk { contacts, .. } = &found
                 && let Some(behind) = contact_behind(contacts, right, left)
             {
-                // A whole ring lies on the path and touches the disk from behind.
-                let site = self.exact_first(&gap, &behind).ok_or_else(|| self.broken(&gap))?;
+                // A whole ring lies on the path and touches the disk from behind; what of it comes first
+                // may be another part.
+                let site = self
+                    .exact_first(&gap, &behind)
+                    .or_else(|| self.exact_first(&gap, &self.on_walks_of(&behind)))
+                    .ok_or_else(|| self.broken(&gap))?;
                 let next = self.proposal_or_exact(&gap, site);
                 found = self.settle(&gap, next)?;
                 continue;
@@ -562,11 +567,18 @@ impl<'a> Search<'a> {
 
     /// All sites that the path can meet.
     fn everything(&self, gap: &Gap) -> Vec<Site> {
-        let is_site =
-            |s: &Site| s.is_edge() || self.domain.edge(s.index()).corner != Corner::Convex;
-        let both = |k| [Site::corner(k), Site::edge(k)];
-        let all = self.tree.items().flat_map(both);
-        all.filter(|&s| is_site(&s) && self.may_be_met(gap, s)).collect()
+        let all = self.domain.sites_among(self.tree.items());
+        all.filter(|&s| self.may_be_met(gap, s)).collect()
+    }
+
+    /// All sites of the walks that some of them lie on.
+    fn on_walks_of(&self, sites: &[Site]) -> Vec<Site> {
+        let walks: BTreeSet<u32> = sites.iter().map(|s| self.domain.edge(s.index()).walk).collect();
+        let edges = walks.into_iter().flat_map(|walk| {
+            let walk = &self.domain.walks()[walk as usize];
+            walk.first..walk.first + walk.len
+        });
+        self.domain.sites_among(edges).collect()
     }
 
     /// Whether a site is not banned and lies on a part of the boundary that is ahead.
