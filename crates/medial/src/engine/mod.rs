@@ -1,11 +1,13 @@
 //! The engines: each turns a [`Domain`](crate::domain::Domain) into a
 //! [`MedialAxis`](crate::axis::MedialAxis).
 
+mod divide_and_conquer;
 mod error;
 mod options;
 mod path_tracing;
 mod watch;
 
+pub use divide_and_conquer::divide_and_conquer;
 pub use error::EngineError;
 pub use options::Options;
 pub use path_tracing::{

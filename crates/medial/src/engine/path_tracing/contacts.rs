@@ -12,7 +12,7 @@ use crate::geom::{Point, TouchingDisk, cross_directions};
 const CLEAR_ANGLE: f64 = 1e-6;
 
 /// Governors of a keypoint; more than a few are rare.
-pub(super) type Contacts = SmallVec<[Site; 8]>;
+pub(in crate::engine) type Contacts = SmallVec<[Site; 8]>;
 
 /// Sorts contacts counterclockwise by footpoint and drops repetitions.
 pub(super) fn sort(
@@ -140,7 +140,8 @@ fn exact_order(domain: &Domain, exact: Option<&ExactDisk>, a: Site, b: Site) -> 
 
 /// The sign of `(qa - pa) × (qb - pb)`, exactly.
 fn direction_turn(pa: Point, qa: Point, pb: Point, qb: Point) -> Ordering {
-    cross_directions(pa, qa, pb, qb).total_cmp(&0.0)
+    // Zero has two signs.
+    cross_directions(pa, qa, pb, qb).partial_cmp(&0.0).unwrap_or(Ordering::Equal)
 }
 
 /// Whether `b` comes directly after `a` along the boundary.

@@ -23,7 +23,7 @@ const PLACED: f64 = 6.0 * f64::EPSILON;
 
 /// Keypoints and paths, with sites by their numbers in the domain.
 #[derive(Debug, Default)]
-pub(super) struct Traced {
+pub(in crate::engine) struct Traced {
     pub keypoints: KeypointTable,
     pub paths: PathTable,
 }
@@ -145,7 +145,12 @@ impl Traced {
     }
 
     /// The axis, with the sites that govern something numbered in boundary order.
-    pub fn finish(mut self, domain: &Domain, watch: &Watch<'_>) -> Result<MedialAxis, EngineError> {
+    pub fn finish(
+        mut self,
+        domain: &Domain,
+        watch: &Watch<'_>,
+        engine: Engine,
+    ) -> Result<MedialAxis, EngineError> {
         watch.check_now()?;
         self.keypoints.shrink();
         self.paths.shrink();
@@ -160,13 +165,13 @@ impl Traced {
         let sites = site_table(domain, &number)?;
         watch.check_now()?;
         drop(number);
-        Ok(axis_of(sites, self.keypoints, self.paths))
+        Ok(axis_of(engine, sites, self.keypoints, self.paths))
     }
 }
 
 /// The axis with these tables.
-pub(super) fn axis_of(sites: SiteTable, keypoints: KeypointTable, paths: PathTable) -> MedialAxis {
-    let (engine, side, accuracy) = (Engine::PathTracing, Side::Interior, Accuracy::Exact);
+pub(super) fn axis_of(engine: Engine, sites: SiteTable, keypoints: KeypointTable, paths: PathTable) -> MedialAxis {
+    let (side, accuracy) = (Side::Interior, Accuracy::Exact);
     MedialAxis::from_tables(engine, side, accuracy, true, sites, keypoints, paths)
 }
 

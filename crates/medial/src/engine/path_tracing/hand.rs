@@ -130,7 +130,7 @@ pub(super) fn path(from: u32, to: u32, right: Site, left: Site) -> Path {
 }
 
 /// A cyclic list from its smallest member on.
-pub(super) fn from_least(list: &[Site]) -> Contacts {
+pub(in crate::engine) fn from_least(list: &[Site]) -> Contacts {
     if let [a, b, c] = *list {
         return Contacts::from_slice(&three_from_least([a, b, c]));
     }

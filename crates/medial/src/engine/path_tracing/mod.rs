@@ -52,6 +52,10 @@ mod touch;
 mod tracer;
 mod verify;
 
+pub(super) use contacts::Contacts;
+pub(super) use finish::Traced;
+pub(super) use hand::from_least;
+pub(super) use positions::Fixed;
 pub use search::Candidate;
 pub use steps::{Step, Steps};
 

@@ -26,7 +26,7 @@ const CLEARLY_WIDER: f64 = 1.0 + 1e-6;
 const FEW_RUNS: usize = 6;
 
 /// The disk of a keypoint as it was found.
-pub(super) struct Fixed<'a> {
+pub(in crate::engine) struct Fixed<'a> {
     /// The disk, if it depends on the governors only, and not on how it was found.
     pub own: Option<&'a TouchingDisk>,
     /// Whether that is what doubles find for the governors, which are three.

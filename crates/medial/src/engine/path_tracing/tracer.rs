@@ -5,7 +5,7 @@ use super::finish::{Mark, Traced};
 use super::gaps::{Gaps, Open};
 use super::hand::{Arrival, Hand, from_least, openings, path, three_from_least};
 use super::search::{Found, Search};
-use crate::axis::MedialAxis;
+use crate::axis::{Engine, MedialAxis};
 use crate::domain::{Corner, Domain, Site};
 use crate::engine::EngineError;
 use crate::engine::watch::Watch;
@@ -296,6 +296,6 @@ impl<'a> Tracer<'a> {
         // What is not needed any more makes room for the answer.
         let Self { hand: Hand { domain, traced, watch, search, .. }, gaps, triples, .. } = self;
         drop((search, gaps, triples));
-        traced.finish(domain, &watch)
+        traced.finish(domain, &watch, Engine::PathTracing)
     }
 }

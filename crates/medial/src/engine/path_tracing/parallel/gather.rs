@@ -8,7 +8,7 @@ use std::thread;
 use super::super::finish::{axis_of, site_record};
 use super::replay::Piece;
 use super::worker::{End, Share};
-use crate::axis::{self, KeypointTable, MedialAxis, Path, PathTable, SiteTable};
+use crate::axis::{self, Engine, KeypointTable, MedialAxis, Path, PathTable, SiteTable};
 use crate::domain::{Domain, Site};
 use crate::engine::EngineError;
 use crate::engine::watch::Watch;
@@ -102,7 +102,7 @@ pub(super) fn gather(
         table.push(&site).ok_or(EngineError::TooLarge { n_edges })?;
     }
     table.shrink();
-    Ok(Some(axis_of(table, keypoints, paths)))
+    Ok(Some(axis_of(Engine::PathTracing, table, keypoints, paths)))
 }
 
 /// The pieces in as many groups of about the same size.

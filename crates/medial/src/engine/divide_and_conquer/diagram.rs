@@ -1,0 +1,127 @@
+//! Diagrams as lists of the arcs around each cell.
+
+use super::elements::{Flank, Member};
+use crate::geom::TouchingDisk;
+
+/// No arc.
+pub(super) const NONE: u32 = u32::MAX;
+/// The vertex where an arc begins or ends in a corner of the boundary.
+pub(super) const APEX: u32 = u32::MAX - 1;
+/// The vertex at the far end of an unbounded arc.
+pub(super) const INFINITE: u32 = u32::MAX - 2;
+
+/// An arc as the boundary of one of its two cells, counterclockwise: the cell lies to its left.
+///
+/// The arc as the other cell sees it has the number with the last bit changed.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Half {
+    pub cell: Member,
+    pub from: u32,
+    /// The next one around the cell; the last one ends at the element itself. Between two unbounded
+    /// ones the cell reaches infinity.
+    pub next: u32,
+    pub prev: u32,
+}
+
+/// A vertex: its disk and three of the elements that it touches.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Vertex {
+    pub triple: [Member; 3],
+    pub disk: TouchingDisk,
+}
+
+/// The diagrams of some chains, with all their arcs.
+#[derive(Debug)]
+pub(super) struct Diagram {
+    pub halves: Vec<Half>,
+    pub vertices: Vec<Vertex>,
+    /// The first and the last arc around each cell.
+    pub ends: Vec<[u32; 2]>,
+    /// Arcs that merges have made.
+    pub merged: u64,
+    /// Arcs that merges have looked at.
+    pub looked_at: u64,
+}
+
+impl Diagram {
+    /// The diagrams of single edges, `n_edges` of them: five cells each, with four arcs between them,
+    /// the normals at both ends on both sides.
+    pub fn of_edges(n_edges: u32) -> Self {
+        let n = n_edges as usize;
+        let mut diagram = Self {
+            halves: Vec::with_capacity(24 * n),
+            vertices: Vec::with_capacity(6 * n),
+            ends: vec![[NONE; 2]; 4 * n],
+            merged: 0,
+            looked_at: 0,
+        };
+        for edge in 0..n_edges {
+            let [left, right] = [Flank::Left, Flank::Right].map(|f| Member::side(edge, f));
+            let (start, end) = (Member::start(edge), Member::end(edge));
+            // Outwards with the first cell to the left.
+            let up_at_end = diagram.ray(left, end);
+            let up_at_start = diagram.ray(start, left);
+            let down_at_start = diagram.ray(right, start);
+            let down_at_end = diagram.ray(end, right);
+            diagram.bound(left, up_at_end, up_at_start ^ 1);
+            diagram.bound(start, up_at_start, down_at_start ^ 1);
+            diagram.bound(right, down_at_start, down_at_end ^ 1);
+            diagram.bound(end, down_at_end, up_at_end ^ 1);
+        }
+        diagram
+    }
+
+    /// An arc from a corner to infinity.
+    fn ray(&mut self, left: Member, right: Member) -> u32 {
+        let arc = self.arc(left, right, APEX);
+        self.halves[arc as usize ^ 1].from = INFINITE;
+        arc
+    }
+
+    /// A new arc that starts at a vertex, with a cell to either side; gives the half of the left one.
+    pub fn arc(&mut self, left: Member, right: Member, from: u32) -> u32 {
+        let arc = self.halves.len() as u32;
+        let half = Half { cell: left, from, next: NONE, prev: NONE };
+        self.halves.push(half);
+        self.halves.push(Half { cell: right, from: NONE, ..half });
+        arc
+    }
+
+    /// Bounds a cell by two arcs.
+    fn bound(&mut self, cell: Member, first: u32, last: u32) {
+        self.link(first, last);
+        self.ends[cell.0 as usize] = [first, last];
+    }
+
+    /// Makes one arc the next of another.
+    pub fn link(&mut self, half: u32, next: u32) {
+        self.halves[half as usize].next = next;
+        self.halves[next as usize].prev = half;
+    }
+
+    pub fn half(&self, half: u32) -> &Half {
+        &self.halves[half as usize]
+    }
+
+    /// The cell beyond an arc.
+    pub fn beyond(&self, half: u32) -> Member {
+        self.half(half ^ 1).cell
+    }
+
+    /// The vertex where an arc ends.
+    pub fn to(&self, half: u32) -> u32 {
+        self.half(half ^ 1).from
+    }
+
+    /// Halves that leave a vertex, counterclockwise, from one of them on.
+    pub fn around(&self, half: u32) -> Vec<u32> {
+        let mut all = vec![half];
+        loop {
+            let before = self.half(all[all.len() - 1]).prev;
+            if before == NONE || before ^ 1 == half {
+                return all;
+            }
+            all.push(before ^ 1);
+        }
+    }
+}

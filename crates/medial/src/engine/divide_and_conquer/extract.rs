@@ -1,0 +1,106 @@
+//! The axis of the interior, read off a finished diagram.
+
+use super::diagram::{APEX, Diagram, NONE, Vertex};
+use super::elements::{Flank, Member, Members};
+use crate::axis::{Engine, KeypointKind, MedialAxis, Path};
+use crate::domain::{Corner, Site};
+use crate::engine::EngineError;
+use crate::engine::path_tracing::{Contacts, Fixed, Traced, from_least};
+use crate::engine::watch::Watch;
+use crate::geom::Point;
+
+/// The axis, with keypoints and paths in boundary order.
+pub(super) fn axis(members: Members<'_>, diagram: &Diagram) -> Result<MedialAxis, EngineError> {
+    let domain = members.domain;
+    let mut traced = Traced::default();
+    let mut number = vec![NONE; diagram.vertices.len()];
+    for (k, edge) in domain.edges().iter().enumerate() {
+        let k = k as u32;
+        let mut cells = vec![Member::side(k, Flank::Left)];
+        if edge.corner == Corner::Reflex {
+            // The chain that ends in a corner keeps it; at the start of a walk the one that starts.
+            let first = domain.walks()[edge.walk as usize].first;
+            cells.push(if k == first { Member::start(k) } else { Member::end(edge.prev) });
+        }
+        for cell in cells {
+            let mut half = diagram.ends[cell.0 as usize][0];
+            while half != NONE {
+                let beyond = diagram.beyond(half);
+                let wall = is_wall(members, cell, beyond);
+                if half & 1 == 0 && !wall {
+                    let (left, right) = (members.site(cell), members.site(beyond));
+                    let ends = [
+                        keypoint(members, diagram, &mut traced, &mut number, half)?,
+                        keypoint(members, diagram, &mut traced, &mut number, half ^ 1)?,
+                    ];
+                    traced.add_path(&Path {
+                        from: ends[0],
+                        to: ends[1],
+                        left: left.0,
+                        right: right.0,
+                    });
+                }
+                half = diagram.half(half).next;
+            }
+        }
+    }
+    traced.finish(domain, &Watch::new(&crate::engine::Options::default()), Engine::PathTracing)
+}
+
+/// Whether the arc between two cells is the normal of an edge at its end.
+fn is_wall(members: Members<'_>, a: Member, b: Member) -> bool {
+    let (corner, side) = if a.is_corner() { (a, b) } else { (b, a) };
+    let (start, end) = members.ends(side);
+    !side.is_corner() && corner.is_corner() && [start, end].contains(&members.place(corner))
+}
+
+/// The keypoint where a half starts.
+fn keypoint(
+    members: Members<'_>,
+    diagram: &Diagram,
+    traced: &mut Traced,
+    number: &mut [u32],
+    half: u32,
+) -> Result<u32, EngineError> {
+    let vertex = diagram.half(half).from;
+    let domain = members.domain;
+    if vertex == APEX {
+        let (before, after) = (diagram.half(half).cell, diagram.beyond(half));
+        let (a, b) = (members.site(before), members.site(after));
+        let corner = if domain.edge(a.index()).next == b.index() { b } else { a };
+        let at: Point = domain.edge(corner.index()).start;
+        let list = from_least(&[a, b]);
+        return Ok(traced.add(at, 0.0, KeypointKind::End, &list));
+    }
+    if let Some(&known) = number.get(vertex as usize)
+        && known != NONE
+    {
+        return Ok(known);
+    }
+    let Some(&Vertex { triple, disk }) = diagram.vertices.get(vertex as usize) else {
+        let place = members.ends(diagram.half(half).cell).0;
+        return Err(EngineError::Internal { stage: "reading a path", place });
+    };
+    let cells = diagram.around(half).into_iter().map(|h| members.site(diagram.half(h).cell));
+    let contacts: Contacts = cells.collect();
+    let walls = walls_at(members, diagram, half);
+    let list = from_least(&contacts);
+    let kind = if contacts.len() - walls == 2 {
+        KeypointKind::Transition
+    } else {
+        KeypointKind::Junction
+    };
+    let fixed = contacts.len() == 3;
+    let triple: [Site; 3] = triple.map(|m| members.site(m));
+    let disk =
+        Fixed { own: fixed.then_some(&disk), sought: false, found: &disk, triple };
+    let keypoint = traced.add_disk(domain, &disk, kind, &list)?;
+    number[vertex as usize] = keypoint;
+    Ok(keypoint)
+}
+
+/// Arcs at a vertex that are normals.
+fn walls_at(members: Members<'_>, diagram: &Diagram, half: u32) -> usize {
+    let wall = |h: &u32| is_wall(members, diagram.half(*h).cell, diagram.beyond(*h));
+    diagram.around(half).iter().filter(|h| wall(h)).count()
+}
