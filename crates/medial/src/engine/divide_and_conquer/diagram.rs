@@ -118,7 +118,7 @@ impl Diagram {
         let mut all = vec![half];
         loop {
             let before = self.half(all[all.len() - 1]).prev;
-            if before == NONE || before ^ 1 == half {
+            if before == NONE || before ^ 1 == half || all.len() > 1000 {
                 return all;
             }
             all.push(before ^ 1);

@@ -2,6 +2,7 @@
 
 use super::diagram::{APEX, Diagram, NONE, Vertex};
 use super::elements::{Flank, Member, Members};
+use super::rings::corner_member;
 use crate::axis::{Engine, KeypointKind, MedialAxis, Path};
 use crate::domain::{Corner, Site};
 use crate::engine::EngineError;
@@ -18,13 +19,16 @@ pub(super) fn axis(members: Members<'_>, diagram: &Diagram) -> Result<MedialAxis
         let k = k as u32;
         let mut cells = vec![Member::side(k, Flank::Left)];
         if edge.corner == Corner::Reflex {
-            // The chain that ends in a corner keeps it; at the start of a walk the one that starts.
-            let first = domain.walks()[edge.walk as usize].first;
-            cells.push(if k == first { Member::start(k) } else { Member::end(edge.prev) });
+            cells.push(corner_member(domain, k));
         }
         for cell in cells {
             let mut half = diagram.ends[cell.0 as usize][0];
+            let mut left = diagram.halves.len();
             while half != NONE {
+                left = left.checked_sub(1).ok_or(EngineError::Internal {
+                    stage: "reading a cell",
+                    place: members.ends(cell).0,
+                })?;
                 let beyond = diagram.beyond(half);
                 let wall = is_wall(members, cell, beyond);
                 if half & 1 == 0 && !wall {

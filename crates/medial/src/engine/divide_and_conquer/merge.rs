@@ -7,9 +7,12 @@
 
 use std::cmp::Ordering;
 
-use super::diagram::{APEX, Diagram, INFINITE, NONE, Vertex};
+use super::diagram::{APEX, Diagram, Half, INFINITE, NONE, Vertex};
 use super::elements::{Disk, Flank, Member, Members};
 use crate::geom::{Point, orient2d};
+
+/// Sine of an angle from which doubles tell on which side of a spoke a vertex lies.
+const CLEARLY: f64 = 1e-9;
 
 /// What went wrong where.
 #[derive(Clone, Copy, Debug)]
@@ -84,8 +87,8 @@ enum Ahead {
     Element,
     /// The cell reaches infinity before this arc.
     Infinity(u32),
-    /// An arc is met; at a vertex of the diagram, if it is its far end.
-    Arc(Box<Disk>, Option<u32>),
+    /// This arc is met; at a vertex of the diagram, if it is its far end.
+    Arc(Box<Disk>, Option<u32>, u32),
     /// The curve runs along an arc of a dropped corner up to a vertex.
     Rim(Box<Disk>, u32),
 }
@@ -93,14 +96,14 @@ enum Ahead {
 impl Ahead {
     fn disk(&self) -> Option<&Disk> {
         match self {
-            Self::Arc(disk, _) | Self::Rim(disk, _) => Some(disk),
+            Self::Arc(disk, ..) | Self::Rim(disk, _) => Some(disk),
             _ => None,
         }
     }
 
     fn vertex(&self) -> Option<u32> {
         match *self {
-            Self::Arc(_, vertex) => vertex,
+            Self::Arc(_, vertex, _) => vertex,
             Self::Rim(_, vertex) => Some(vertex),
             _ => None,
         }
@@ -119,6 +122,27 @@ pub(super) struct Merge<'m, 'a> {
     members: Members<'a>,
     diagram: &'m mut Diagram,
     joints: &'m [Joint],
+}
+
+/// Where the curve around a ring crosses an arc of the ring's own diagram.
+pub(super) struct Crossing {
+    /// The arc as the cell sees it that the curve leaves; from there on it is lost.
+    pub half: u32,
+    /// The disk there.
+    pub start: Disk,
+    /// The element on the other side where the curve goes on.
+    pub left: Member,
+    /// An arc around that element's cell, behind the curve as seen from the element.
+    pub left_cursor: u32,
+}
+
+/// Where a closed curve was begun.
+struct Closing {
+    half: u32,
+    start: Disk,
+    piece: u32,
+    right: Member,
+    left: Member,
 }
 
 /// The curve on its way.
@@ -197,27 +221,82 @@ impl<'m, 'a> Merge<'m, 'a> {
             start: None,
             piece,
         };
+        self.follow(&mut curve, None)
+    }
+
+    /// Follows the curve to a joint, to infinity, or until it closes.
+    fn follow(
+        &mut self,
+        curve: &mut Curve,
+        closing: Option<&Closing>,
+    ) -> Result<Option<(usize, Flank)>, Broken> {
         let most = 16 * self.diagram.ends.len() + 64;
         for _ in 0..most {
             self.diagram.merged += 1;
-            let to_left = self.look(&mut curve, Hand::Left);
-            let to_right = self.look(&mut curve, Hand::Right);
-            if std::env::var("DC").is_ok() { let f = |a: &Ahead| match a { Ahead::Arc(d, v) => format!("arc {:?} c {:?} r {} v {v:?}", d.triple.map(|t| (t.0>>2, t.0&3)), d.disk.position(), d.disk.radius), Ahead::Rim(d, v) => format!("rim {:?} {v}", d.triple.map(|t| (t.0>>2, t.0&3))), o => format!("{o:?}") }; let g = |c: u32| if c == NONE { "none".to_owned() } else { let h = self.diagram.half(c); format!("{}:{:?}", c, (self.diagram.beyond(c).0>>2, self.diagram.beyond(c).0&3, h.from as i32, self.diagram.to(c) as i32)) }; eprintln!("left {:?} right {:?} | L {} ({}) | R {} ({})", (curve.left.0>>2, curve.left.0&3), (curve.right.0>>2, curve.right.0&3), f(&to_left), g(curve.left_cursor), f(&to_right), g(curve.right_cursor)); }
+            let (to_left, to_right) = if closing.is_some() {
+                (self.look_around(curve, Hand::Left), self.look_around(curve, Hand::Right))
+            } else {
+                (self.look(curve, Hand::Left), self.look(curve, Hand::Right))
+            };
+            if std::env::var("DC").is_ok() { let f = |a: &Ahead| match a { Ahead::Arc(d, v, _) => format!("arc {:?} c {:?} r {} v {v:?}", d.triple.map(|t| (t.0>>2, t.0&3)), d.disk.position(), d.disk.radius), Ahead::Rim(d, v) => format!("rim {:?} {v}", d.triple.map(|t| (t.0>>2, t.0&3))), o => format!("{o:?}") }; let g = |c: u32| if c == NONE { "none".to_owned() } else { let h = self.diagram.half(c); format!("{}:{:?}", c, (self.diagram.beyond(c).0>>2, self.diagram.beyond(c).0&3, h.from as i32, self.diagram.to(c) as i32)) }; eprintln!("left {:?} right {:?} | L {} ({}) | R {} ({})", (curve.left.0>>2, curve.left.0&3), (curve.right.0>>2, curve.right.0&3), f(&to_left), g(curve.left_cursor), f(&to_right), g(curve.right_cursor)); }
             let order = match (to_left.disk(), to_right.disk()) {
                 (Some(l), Some(r)) => {
                     self.members.order(&l.exact, &r.exact, curve.right, curve.left)
                 }
                 (Some(_), None) => Ordering::Less,
                 (None, Some(_)) => Ordering::Greater,
-                (None, None) => return self.end(&curve, &to_left, &to_right),
+                (None, None) => return self.end(curve, &to_left, &to_right),
             };
+            let closes = closing.filter(|closing| {
+                order.is_ge()
+                    && matches!(to_right, Ahead::Arc(_, _, half) if half == closing.half)
+                    && to_right.disk().is_some_and(|disk| {
+                        let start = &closing.start.exact;
+                        self.members.order(&disk.exact, start, curve.right, curve.left).is_eq()
+                    })
+            });
             self.cross(
-                &mut curve,
+                curve,
                 order.is_le().then_some(to_left),
                 order.is_ge().then_some(to_right),
+                closes.map(|closing| closing.piece),
             );
+            if let Some(closing) = closes {
+                return if (curve.right, curve.left) == (closing.right, closing.left) {
+                    Ok(None)
+                } else {
+                    Err(self.broken(curve, "closing a merge curve"))
+                };
+            }
         }
-        Err(self.broken(&curve, "following a merge curve"))
+        Err(self.broken(curve, "following a merge curve"))
+    }
+
+    /// Merges the diagram of a ring into that of others around it, given where the curve crosses an arc
+    /// of the ring.
+    pub fn close(mut self, crossing: Crossing) -> Result<(), Broken> {
+        let Crossing { half, start, left, left_cursor } = crossing;
+        let right = self.diagram.beyond(half);
+        let vertex = self.diagram.vertices.len() as u32;
+        self.diagram.vertices.push(Vertex { triple: start.triple, disk: start.disk });
+        let right_cursor = self.split(half, vertex, Hand::Right);
+        let piece = self.diagram.arc(left, right, vertex);
+        let mut curve = Curve {
+            right,
+            left,
+            right_cursor,
+            left_cursor,
+            right_gap: None,
+            left_gap: None,
+            start: Some(start.clone()),
+            piece,
+        };
+        // Seen from the cell that it comes back through, it ends where the lost part starts.
+        let kept = half;
+        let half = right_cursor ^ 1;
+        self.diagram.halves[half as usize].prev = kept;
+        self.diagram.halves[right_cursor as usize].next = kept ^ 1;
+        self.follow(&mut curve, Some(&Closing { half, start, piece, right, left })).map(|_| ())
     }
 
     fn broken(&self, curve: &Curve, stage: &'static str) -> Broken {
@@ -251,6 +330,87 @@ impl<'m, 'a> Merge<'m, 'a> {
         curve.start.as_ref().is_none_or(|start| {
             self.members.order(&disk.exact, &start.exact, curve.right, curve.left).is_gt()
         })
+    }
+
+    /// What the cell to one hand has ahead, where the curve is all around a ring.
+    ///
+    /// It may cross an arc more than once, so each arc up to the first one with an end that is not lost
+    /// is asked; those whose far end the curve has passed are not asked again.
+    fn look_around(&mut self, curve: &mut Curve, hand: Hand) -> Ahead {
+        let (cell, other) = match hand {
+            Hand::Left => (curve.left, curve.right),
+            Hand::Right => (curve.right, curve.left),
+        };
+        let mut cursor = if hand == Hand::Left { curve.left_cursor } else { curve.right_cursor };
+        let mut passing = true;
+        let mut first: Option<(Disk, Option<u32>, u32)> = None;
+        let mut half = cursor;
+        while half != NONE {
+            self.diagram.looked_at += 1;
+            let far = self.far(half, hand);
+            let vertex = (far != APEX && far != INFINITE).then(|| self.vertex(far));
+            let meets = match (&vertex, far) {
+                (Some(vertex), _) => self.members.meets(&vertex.exact, other),
+                // A ring inside another one loses all that is far away.
+                (None, INFINITE) => Ordering::Less,
+                (None, _) => Ordering::Greater,
+            };
+            let is_at_end =
+                meets.is_eq() && vertex.as_ref().is_some_and(|vertex| self.is_ahead(curve, vertex));
+            let met = if is_at_end {
+                vertex.clone().map(|vertex| (vertex, Some(far), half))
+            } else {
+                let disk =
+                    self.members.disk([curve.right, self.diagram.beyond(half), curve.left]);
+                disk.filter(|disk| {
+                    self.members.in_zone(&disk.exact, self.diagram.beyond(half))
+                        && self.is_ahead(curve, disk)
+                })
+                .map(|disk| (disk, None, half))
+            };
+            if let Some(met) = met {
+                let (right, left) = (curve.right, curve.left);
+                let order = |d: &Disk, e: &Disk| self.members.order(&d.exact, &e.exact, right, left);
+                if first.as_ref().is_none_or(|first| order(&met.0, &first.0).is_lt()) {
+                    first = Some(met);
+                }
+            }
+            if is_at_end || meets.is_gt() {
+                break;
+            }
+            let after = self.step(half, hand);
+            passing = passing
+                && vertex.as_ref().is_some_and(|vertex| self.is_passed(curve, cell, hand, vertex));
+            if passing {
+                cursor = after;
+            }
+            half = after;
+        }
+        match hand {
+            Hand::Left => curve.left_cursor = cursor,
+            Hand::Right => curve.right_cursor = cursor,
+        }
+        first.map_or(Ahead::Nothing, |(disk, vertex, half)| {
+            Ahead::Arc(Box::new(disk), vertex, half)
+        })
+    }
+
+    /// Whether a vertex around a cell certainly lies behind the start of the present piece.
+    fn is_passed(&self, curve: &Curve, cell: Member, hand: Hand, vertex: &Disk) -> bool {
+        let Some(start) = &curve.start else { return false };
+        let (a, b) = self.members.ends(cell);
+        let order = if cell.is_corner() {
+            let (way, to) = (start.disk.position() - a, vertex.disk.position() - a);
+            let turn = way.cross(to);
+            if turn.abs() <= CLEARLY * way.norm() * to.norm() || way.dot(to) < 0.0 {
+                return false;
+            }
+            turn.total_cmp(&0.0)
+        } else {
+            // Counterclockwise around the cell is against the direction of the edge.
+            start.exact.compare_along(&vertex.exact, a, b)
+        };
+        order == if hand == Hand::Left { Ordering::Less } else { Ordering::Greater }
     }
 
     /// What the cell to one hand has ahead.
@@ -334,7 +494,7 @@ impl<'m, 'a> Merge<'m, 'a> {
                         }
                         Ordering::Equal => {
                             if self.is_ahead(curve, &vertex) {
-                                break Ahead::Arc(Box::new(vertex), Some(far));
+                                break Ahead::Arc(Box::new(vertex), Some(far), half);
                             }
                             cursor = self.step(half, hand);
                             continue;
@@ -346,7 +506,7 @@ impl<'m, 'a> Merge<'m, 'a> {
             let disk = self.members.disk([curve.right, beyond, curve.left]).filter(|disk| {
                 self.members.in_zone(&disk.exact, beyond) && self.is_ahead(curve, disk)
             });
-            break disk.map_or(Ahead::Nothing, |disk| Ahead::Arc(Box::new(disk), None));
+            break disk.map_or(Ahead::Nothing, |disk| Ahead::Arc(Box::new(disk), None, half));
         };
         match hand {
             Hand::Left => (curve.left_cursor, curve.left_gap) = (cursor, gap),
@@ -427,16 +587,33 @@ impl<'m, 'a> Merge<'m, 'a> {
     }
 
     /// Ends the present piece where an arc of either cell, or of both, is met, and starts the next.
-    fn cross(&mut self, curve: &mut Curve, left: Option<Ahead>, right: Option<Ahead>) {
+    ///
+    /// The next piece may be there already, where the curve closes.
+    fn cross(
+        &mut self,
+        curve: &mut Curve,
+        left: Option<Ahead>,
+        right: Option<Ahead>,
+        next: Option<u32>,
+    ) {
+        for (met, cursor) in
+            [(&left, &mut curve.left_cursor), (&right, &mut curve.right_cursor)]
+        {
+            if let Some(Ahead::Arc(_, _, half)) = met {
+                *cursor = *half;
+            }
+        }
         let of = |ahead: &Option<Ahead>| ahead.as_ref().and_then(Ahead::vertex);
-        let vertex = match (of(&left), of(&right)) {
+        let begun = next.map(|piece| self.diagram.half(piece).from);
+        let vertex = match (of(&left), of(&right).or(begun)) {
             (Some(l), Some(r)) => {
-                let half = self.far_half(curve, Hand::Right);
-                for half in self.diagram.around(half) {
-                    self.diagram.halves[half as usize].from = l;
+                if l != r {
+                    let half = self.far_half(curve, Hand::Left);
+                    for half in self.diagram.around(half) {
+                        self.diagram.halves[half as usize].from = r;
+                    }
                 }
-                debug_assert_ne!(l, r);
-                l
+                r
             }
             (Some(vertex), None) | (None, Some(vertex)) => vertex,
             (None, None) => {
@@ -446,9 +623,12 @@ impl<'m, 'a> Merge<'m, 'a> {
                 self.diagram.vertices.len() as u32 - 1
             }
         };
-        let to_left = left.as_ref().and_then(|a| self.cut(curve.left_cursor, a, vertex, Hand::Left));
-        let to_right =
-            right.as_ref().and_then(|a| self.cut(curve.right_cursor, a, vertex, Hand::Right));
+        let to_left = left
+            .as_ref()
+            .and_then(|a| self.cut(curve.left_cursor, a, vertex, Hand::Left));
+        let to_right = right
+            .as_ref()
+            .and_then(|a| self.cut(curve.right_cursor, a, vertex, Hand::Right));
         if to_left.is_none() && left.is_some() {
             curve.left_cursor = self.step(curve.left_cursor, Hand::Left);
         }
@@ -463,7 +643,7 @@ impl<'m, 'a> Merge<'m, 'a> {
         if let Some(cut) = &to_right {
             (curve.right, curve.right_cursor, curve.right_gap) = (cut.cell, cut.cursor, cut.gap);
         }
-        let new = self.diagram.arc(curve.left, curve.right, vertex);
+        let new = next.unwrap_or_else(|| self.diagram.arc(curve.left, curve.right, vertex));
         match to_left {
             Some(cut) => {
                 self.diagram.link(old, cut.old);
@@ -480,8 +660,8 @@ impl<'m, 'a> Merge<'m, 'a> {
         }
         curve.piece = new;
         curve.start = match (left, right) {
-            (Some(Ahead::Arc(disk, _) | Ahead::Rim(disk, _)), _)
-            | (_, Some(Ahead::Arc(disk, _) | Ahead::Rim(disk, _))) => Some(*disk),
+            (Some(Ahead::Arc(disk, ..) | Ahead::Rim(disk, _)), _)
+            | (_, Some(Ahead::Arc(disk, ..) | Ahead::Rim(disk, _))) => Some(*disk),
             _ => None,
         };
     }
@@ -494,8 +674,53 @@ impl<'m, 'a> Merge<'m, 'a> {
         }
     }
 
+    /// Splits an arc at a vertex; gives what is lost of it as the cell beyond sees it.
+    fn split(&mut self, half: u32, vertex: u32, hand: Hand) -> u32 {
+        let twin = half ^ 1;
+        let (old, new) = (*self.diagram.half(half), *self.diagram.half(twin));
+        let lost = self.diagram.halves.len() as u32;
+        match hand {
+            Hand::Left => {
+                self.diagram.halves.push(Half { next: NONE, ..old });
+                self.diagram.halves.push(Half { from: vertex, prev: NONE, ..new });
+                self.diagram.halves[half as usize].from = vertex;
+                self.relink(old.prev, lost, lost ^ 1, new.next);
+            }
+            Hand::Right => {
+                self.diagram.halves.push(Half { from: vertex, prev: NONE, ..old });
+                self.diagram.halves.push(Half { next: NONE, ..new });
+                self.diagram.halves[twin as usize].from = vertex;
+                self.relink(new.prev, lost ^ 1, lost, old.next);
+            }
+        }
+        lost ^ 1
+    }
+
+    fn relink(&mut self, before: u32, first: u32, last: u32, after: u32) {
+        if before != NONE {
+            self.diagram.halves[before as usize].next = first;
+        }
+        if after != NONE {
+            self.diagram.halves[after as usize].prev = last;
+        }
+    }
+
     /// Cuts the arc that is met at a vertex.
-    fn cut(&mut self, half: u32, ahead: &Ahead, vertex: u32, hand: Hand) -> Option<Cut> {
+    fn cut(
+        &mut self,
+        half: u32,
+        ahead: &Ahead,
+        vertex: u32,
+        hand: Hand,
+    ) -> Option<Cut> {
+        if self.joints.is_empty()
+            && let Ahead::Arc(_, None, _) = ahead
+        {
+            // The curve may come back to the rest of it.
+            let cell = self.diagram.beyond(half);
+            let cursor = self.split(half, vertex, hand);
+            return Some(Cut { old: half, new: half ^ 1, cell, cursor, gap: None });
+        }
         let twin = half ^ 1;
         let d = &mut *self.diagram;
         let near = if hand == Hand::Left { half } else { twin };
@@ -504,11 +729,11 @@ impl<'m, 'a> Merge<'m, 'a> {
         let (cell, old, new) = (d.half(twin).cell, *d.half(half), *d.half(twin));
         let cursor = if hand == Hand::Left { new.next } else { new.prev };
         match ahead {
-            Ahead::Arc(_, None) => {
+            Ahead::Arc(_, None, _) => {
                 d.halves[near as usize].from = vertex;
                 Some(Cut { old: half, new: twin, cell, cursor, gap })
             }
-            Ahead::Arc(_, Some(_)) => {
+            Ahead::Arc(_, Some(_), _) => {
                 let (old, new) = match hand {
                     Hand::Left => (old.next, new.prev),
                     Hand::Right => (old.prev, new.next),

@@ -15,7 +15,7 @@ const CLEAR_ANGLE: f64 = 1e-6;
 pub(in crate::engine) type Contacts = SmallVec<[Site; 8]>;
 
 /// Sorts contacts counterclockwise by footpoint and drops repetitions.
-pub(super) fn sort(
+pub(in crate::engine) fn sort(
     domain: &Domain,
     disk: &TouchingDisk,
     exact: Option<&ExactDisk>,

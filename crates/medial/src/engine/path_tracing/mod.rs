@@ -52,7 +52,7 @@ mod touch;
 mod tracer;
 mod verify;
 
-pub(super) use contacts::Contacts;
+pub(super) use contacts::{Contacts, sort};
 pub(super) use finish::Traced;
 pub(super) use hand::from_least;
 pub(super) use positions::Fixed;

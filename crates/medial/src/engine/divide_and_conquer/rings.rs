@@ -1,0 +1,271 @@
+//! Where the merge curve around a ring crosses an arc of the ring's own diagram.
+
+use std::cmp::Ordering;
+use std::ops::Range;
+
+use super::diagram::{APEX, Diagram, INFINITE, NONE};
+use super::elements::{Disk, Flank, Member, Members};
+use super::merge::{Broken, Crossing};
+use crate::domain::{Corner, Domain, Site, Walk};
+use crate::engine::path_tracing::{Contacts, sort};
+use crate::geom::{BoundsTree, Point, Rect, TouchingDisk, Visitor};
+
+/// How much a disk grows that has met nothing yet.
+const GROWTH: f64 = 4.0;
+
+/// Rounds of growing or shrinking disks, at most.
+const MOST_ROUNDS: usize = 4096;
+
+/// The rings of a domain that are merged already.
+pub(super) struct Merged<'a> {
+    members: Members<'a>,
+    tree: &'a BoundsTree,
+    /// Whether each walk is.
+    walks: Vec<bool>,
+}
+
+/// Collects edges near a disk.
+struct Near<'n> {
+    centre: Point,
+    reach: f64,
+    domain: &'n Domain,
+    walks: &'n [bool],
+    edges: Vec<u32>,
+}
+
+impl Visitor for Near<'_> {
+    fn enters(&self, bounds: &Rect, _: Range<u32>) -> bool {
+        bounds.distance2(self.centre) <= self.reach * self.reach
+    }
+
+    fn item(&mut self, edge: u32) {
+        let record = self.domain.edge(edge);
+        if self.walks[record.walk as usize]
+            && record.distance2(self.centre - record.start) <= self.reach * self.reach
+        {
+            self.edges.push(edge);
+        }
+    }
+}
+
+impl<'a> Merged<'a> {
+    pub fn new(members: Members<'a>, tree: &'a BoundsTree) -> Self {
+        Self { members, tree, walks: vec![false; members.domain.walks().len()] }
+    }
+
+    /// Notes that a walk is merged.
+    pub fn add(&mut self, walk: u32) {
+        self.walks[walk as usize] = true;
+    }
+
+    fn near(&self, disk: &TouchingDisk) -> Vec<u32> {
+        let centre = disk.position();
+        let size = centre.x.abs().max(centre.y.abs()) + disk.radius;
+        let bound = if disk.bound.is_finite() { disk.bound } else { 0.0 };
+        // With room for rounding: what is near is asked exactly.
+        let reach = (disk.radius + bound) * (1.0 + 64.0 * f64::EPSILON) + 64.0 * f64::EPSILON * size;
+        let (domain, walks) = (self.members.domain, &self.walks[..]);
+        let mut near = Near { centre, reach, domain, walks, edges: Vec::new() };
+        self.tree.visit(&mut near);
+        near.edges
+    }
+
+    /// The elements at an edge that the interior sees: the edge, and its corners if they are reflex.
+    fn members_at(&self, edge: u32) -> impl Iterator<Item = Member> {
+        let domain = self.members.domain;
+        let next = domain.edge(edge).next;
+        let corner = move |k: u32| {
+            (domain.edge(k).corner == Corner::Reflex).then(|| corner_member(domain, k))
+        };
+        [Some(Member::side(edge, Flank::Left)), corner(edge), corner(next)].into_iter().flatten()
+    }
+
+    /// Edges that cut an exact disk.
+    fn cutting(&self, disk: &Disk) -> Vec<u32> {
+        let cuts = |&edge: &u32| {
+            self.members.meets(&disk.exact, Member::side(edge, Flank::Left)).is_lt()
+        };
+        self.near(&disk.disk).into_iter().filter(cuts).collect()
+    }
+
+    /// Of the elements at some edges the one whose disk comes first along an arc, after its start and
+    /// before an end.
+    fn first(
+        &self,
+        edges: &[u32],
+        (right, left): (Member, Member),
+        start: Option<&Disk>,
+        end: Option<&Disk>,
+    ) -> Option<Disk> {
+        let mut first: Option<Disk> = None;
+        let order = |a: &Disk, b: &Disk| self.members.order(&a.exact, &b.exact, right, left);
+        for member in edges.iter().flat_map(|&edge| self.members_at(edge)) {
+            let Some(disk) = self.members.disk([right, member, left]) else { continue };
+            if self.members.in_zone(&disk.exact, member)
+                && start.is_none_or(|start| order(&disk, start).is_gt())
+                && end.is_none_or(|end| order(&disk, end).is_lt())
+                && first.as_ref().is_none_or(|first| order(&disk, first).is_lt())
+            {
+                first = Some(disk);
+            }
+        }
+        first
+    }
+
+    /// Where the merge curve crosses an arc around a reflex corner of a ring inside.
+    pub fn crossing(&self, diagram: &Diagram, walk: &Walk) -> Result<Crossing, Broken> {
+        let domain = self.members.domain;
+        for edge in walk.first..walk.first + walk.len {
+            if domain.edge(edge).corner != Corner::Reflex {
+                continue;
+            }
+            let cell = corner_member(domain, edge);
+            let mut half = diagram.ends[cell.0 as usize][0];
+            while half != NONE {
+                let far = match diagram.to(half) {
+                    APEX => break,
+                    INFINITE => None,
+                    vertex => {
+                        let vertex = diagram.vertices[vertex as usize];
+                        Some(self.members.known(vertex.triple, vertex.disk))
+                    }
+                };
+                if far.as_ref().is_none_or(|far| !self.cutting(far).is_empty()) {
+                    if let Some(crossing) = self.on(diagram, half, far) {
+                        return Ok(crossing);
+                    }
+                    break;
+                }
+                half = diagram.half(half).next;
+            }
+        }
+        let place = domain.edge(walk.first).start;
+        Err(Broken { stage: "looking for the merge curve around a ring", place })
+    }
+
+    /// Where the merge curve crosses an arc whose far end is lost.
+    fn on(&self, diagram: &Diagram, half: u32, far: Option<Disk>) -> Option<Crossing> {
+        let (left, right) = (diagram.half(half).cell, diagram.beyond(half));
+        let start = match diagram.half(half).from {
+            APEX => None,
+            vertex => {
+                let vertex = diagram.vertices.get(vertex as usize)?;
+                Some(self.members.known(vertex.triple, vertex.disk))
+            }
+        };
+        let mut edges = match &far {
+            Some(far) => self.cutting(far),
+            None => self.first_near(left, right, start.as_ref()),
+        };
+        let mut disk = far;
+        for _ in 0..MOST_ROUNDS {
+            let next =
+                self.first(&edges, (right, left), start.as_ref(), disk.as_ref())?;
+            edges = self.cutting(&next);
+            if edges.is_empty() {
+                return self.crossing_at(diagram, half, next);
+            }
+            disk = Some(next);
+        }
+        None
+    }
+
+    /// Edges met by growing disks on an unbounded arc.
+    fn first_near(&self, left: Member, right: Member, start: Option<&Disk>) -> Vec<u32> {
+        let ((l, l_end), (r, r_end)) = (self.members.ends(left), self.members.ends(right));
+        let all = self.tree.bounds();
+        let largest = (all.max - all.min).norm() * GROWTH;
+        let (middle, way, half) = if right.is_corner() {
+            let across = l - r;
+            let length = across.norm();
+            ((l + r) * 0.5, -(across.perp() * (1.0 / length)), length / 2.0)
+        } else {
+            let direction = (r_end - r) * (1.0 / (r_end - r).norm());
+            (l_end, direction.perp(), 0.0)
+        };
+        let mut radius = start.map_or(0.0, |s| s.disk.radius).max(half).max(largest * 1e-6) * 2.0;
+        loop {
+            let along = (radius * radius - half * half).max(0.0).sqrt();
+            let (origin, centre) = (middle, way * along);
+            let disk = TouchingDisk { origin, centre, radius, bound: f64::INFINITY };
+            let edges = self.near(&disk);
+            if self.first(&edges, (right, left), start, None).is_some() || radius > largest {
+                return edges;
+            }
+            radius *= GROWTH;
+        }
+    }
+
+    /// What the curve needs to start at a disk on an arc of the ring.
+    fn crossing_at(&self, diagram: &Diagram, half: u32, start: Disk) -> Option<Crossing> {
+        let members = &self.members;
+        let domain = members.domain;
+        let mut contacts: Contacts = start.triple.iter().map(|&m| members.site(m)).collect();
+        for member in self.near(&start.disk).into_iter().flat_map(|edge| self.members_at(edge)) {
+            if members.meets(&start.exact, member).is_eq() {
+                contacts.push(members.site(member));
+            }
+        }
+        let triple = start.triple.map(|m| members.site(m));
+        contacts.sort_unstable();
+        contacts.dedup();
+        sort(domain, &start.disk, Some(&start.exact), &triple, &mut contacts);
+        // Counterclockwise after the cell that the curve goes on in comes its other one.
+        let right = members.site(diagram.beyond(half));
+        let at = contacts.iter().position(|&s| s == right)?;
+        let site = contacts[(at + 1) % contacts.len()];
+        let left = member_of(domain, site);
+        let left_cursor = self.behind(diagram, left, &start)?;
+        Some(Crossing { half, start, left, left_cursor })
+    }
+
+    /// The arc around a cell that lies behind a disk as seen from the element.
+    fn behind(&self, diagram: &Diagram, cell: Member, disk: &Disk) -> Option<u32> {
+        let members = &self.members;
+        let (a, b) = members.ends(cell);
+        let mut half = diagram.ends[cell.0 as usize][0];
+        while half != NONE {
+            let is_beyond = match diagram.to(half) {
+                APEX => true,
+                // The cell has a gap there, which nothing inside sees.
+                INFINITE => false,
+                vertex => {
+                    let vertex = diagram.vertices[vertex as usize];
+                    if cell.is_corner() {
+                        let (to, way) =
+                            (vertex.disk.position() - a, disk.disk.position() - a);
+                        way.cross(to) >= 0.0
+                    } else {
+                        let vertex = members.known(vertex.triple, vertex.disk);
+                        vertex.exact.compare_along(&disk.exact, a, b) != Ordering::Greater
+                    }
+                }
+            };
+            if is_beyond {
+                return Some(half);
+            }
+            half = diagram.half(half).next;
+        }
+        None
+    }
+}
+
+/// The number that a corner has in the finished diagram of its ring.
+pub(super) fn corner_member(domain: &Domain, edge: u32) -> Member {
+    // The chain that ends in a corner keeps it; at the start of a walk the one that starts.
+    let record = domain.edge(edge);
+    if edge == domain.walks()[record.walk as usize].first {
+        Member::start(edge)
+    } else {
+        Member::end(record.prev)
+    }
+}
+
+/// The element that a site is.
+fn member_of(domain: &Domain, site: Site) -> Member {
+    if site.is_edge() {
+        Member::side(site.index(), Flank::Left)
+    } else {
+        corner_member(domain, site.index())
+    }
+}
