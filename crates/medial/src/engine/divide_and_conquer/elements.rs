@@ -127,6 +127,18 @@ impl Members<'_> {
         disk.along(a, b, a).is_ge() && disk.along(a, b, b).is_le()
     }
 
+    /// Whether a disk that touches an element of closed rings does so in its zone, which is closed.
+    pub fn in_zone_of_ring(&self, disk: &ExactDisk, member: Member) -> bool {
+        if !member.is_corner() {
+            return self.in_zone(disk, member);
+        }
+        let Site(corner) = self.site(member);
+        let after = corner >> 1;
+        let (before, v) = (self.domain.edge(after).prev, self.place(member));
+        disk.along(self.domain.edge(before).start, v, v).is_ge()
+            && disk.along(v, self.domain.end(after), v).is_le()
+    }
+
     /// Orders the distance of the centre from an edge with its ends, or from a corner, against the
     /// radius; `Equal` only where the element itself is touched, and not just one of its ends.
     pub fn meets(&self, disk: &ExactDisk, member: Member) -> Ordering {

@@ -145,6 +145,16 @@ struct Closing {
     left: Member,
 }
 
+/// Up to where a cell is asked for arcs.
+#[derive(Clone, Copy)]
+enum Reach<'d> {
+    /// Up to the first end that the other element does not take away.
+    Near,
+    /// Up to a disk on the curve.
+    UpTo(&'d Disk),
+    All,
+}
+
 /// The curve on its way.
 struct Curve {
     right: Member,
@@ -234,7 +244,7 @@ impl<'m, 'a> Merge<'m, 'a> {
         for _ in 0..most {
             self.diagram.merged += 1;
             let (to_left, to_right) = if closing.is_some() {
-                (self.look_around(curve, Hand::Left), self.look_around(curve, Hand::Right))
+                self.look_around(curve)
             } else {
                 (self.look(curve, Hand::Left), self.look(curve, Hand::Right))
             };
@@ -332,11 +342,42 @@ impl<'m, 'a> Merge<'m, 'a> {
         })
     }
 
-    /// What the cell to one hand has ahead, where the curve is all around a ring.
+    /// What comes next where the curve is all around a ring: what either cell has ahead, and the order
+    /// of the two.
     ///
-    /// It may cross an arc more than once, so each arc up to the first one with an end that is not lost
-    /// is asked; those whose far end the curve has passed are not asked again.
-    fn look_around(&mut self, curve: &mut Curve, hand: Hand) -> Ahead {
+    /// It may cross an arc more than once, and come to an end of one that only another part of the ring
+    /// takes away. So each cell is asked for all arcs up to the place where the other one has something.
+    fn look_around(&mut self, curve: &mut Curve) -> (Ahead, Ahead) {
+        let mut left = self.look_up_to(curve, Hand::Left, Reach::Near);
+        let mut right = self.look_up_to(curve, Hand::Right, Reach::Near);
+        loop {
+            let first = match (left.disk(), right.disk()) {
+                (Some(l), Some(r)) => {
+                    let order = self.members.order(&l.exact, &r.exact, curve.right, curve.left);
+                    Some(if order.is_le() { l } else { r })
+                }
+                (first, None) | (None, first) => first,
+            };
+            let first = first.cloned();
+            let reach = || first.as_ref().map_or(Reach::All, Reach::UpTo);
+            left = self.look_up_to(curve, Hand::Left, reach());
+            right = self.look_up_to(curve, Hand::Right, reach());
+            let Some(first) = &first else { return (left, right) };
+            let is_new = |ahead: &Ahead| {
+                ahead.disk().is_some_and(|disk| {
+                    self.members
+                        .order(&disk.exact, &first.exact, curve.right, curve.left)
+                        .is_lt()
+                })
+            };
+            if !is_new(&left) && !is_new(&right) {
+                return (left, right);
+            }
+        }
+    }
+
+    /// What the cell to one hand has ahead, of the arcs within reach.
+    fn look_up_to(&mut self, curve: &mut Curve, hand: Hand, reach: Reach<'_>) -> Ahead {
         let (cell, other) = match hand {
             Hand::Left => (curve.left, curve.right),
             Hand::Right => (curve.right, curve.left),
@@ -349,6 +390,17 @@ impl<'m, 'a> Merge<'m, 'a> {
             self.diagram.looked_at += 1;
             let far = self.far(half, hand);
             let vertex = (far != APEX && far != INFINITE).then(|| self.vertex(far));
+            let place = |disk: Option<&Disk>| {
+                let (vertex, disk) = (vertex.as_ref()?, disk?);
+                self.place_around(cell, hand, vertex, disk)
+            };
+            passing = passing && place(curve.start.as_ref()) == Some(Ordering::Less);
+            let after = self.step(half, hand);
+            if passing {
+                // The curve has passed its far end, so that is lost.
+                (cursor, half) = (after, after);
+                continue;
+            }
             let meets = match (&vertex, far) {
                 (Some(vertex), _) => self.members.meets(&vertex.exact, other),
                 // A ring inside another one loses all that is far away.
@@ -363,8 +415,8 @@ impl<'m, 'a> Merge<'m, 'a> {
                 let disk =
                     self.members.disk([curve.right, self.diagram.beyond(half), curve.left]);
                 disk.filter(|disk| {
-                    self.members.in_zone(&disk.exact, self.diagram.beyond(half))
-                        && self.is_ahead(curve, disk)
+                    let in_zone = |&m: &Member| self.members.in_zone_of_ring(&disk.exact, m);
+                    disk.triple.iter().all(in_zone) && self.is_ahead(curve, disk)
                 })
                 .map(|disk| (disk, None, half))
             };
@@ -375,14 +427,16 @@ impl<'m, 'a> Merge<'m, 'a> {
                     first = Some(met);
                 }
             }
-            if is_at_end || meets.is_gt() {
+            let is_far = match reach {
+                Reach::Near => is_at_end || meets.is_gt(),
+                // What is proposed may lie on a wall that the curve has left behind.
+                Reach::UpTo(disk) => {
+                    !cell.is_corner() && place(Some(disk)) == Some(Ordering::Greater)
+                }
+                Reach::All => false,
+            };
+            if is_far {
                 break;
-            }
-            let after = self.step(half, hand);
-            passing = passing
-                && vertex.as_ref().is_some_and(|vertex| self.is_passed(curve, cell, hand, vertex));
-            if passing {
-                cursor = after;
             }
             half = after;
         }
@@ -395,22 +449,28 @@ impl<'m, 'a> Merge<'m, 'a> {
         })
     }
 
-    /// Whether a vertex around a cell certainly lies behind the start of the present piece.
-    fn is_passed(&self, curve: &Curve, cell: Member, hand: Hand, vertex: &Disk) -> bool {
-        let Some(start) = &curve.start else { return false };
+    /// Orders the spokes from an element to a vertex around its cell and to a disk on the curve, in the
+    /// direction of the curve; `None` where it is not certain.
+    fn place_around(
+        &self,
+        cell: Member,
+        hand: Hand,
+        vertex: &Disk,
+        disk: &Disk,
+    ) -> Option<Ordering> {
         let (a, b) = self.members.ends(cell);
         let order = if cell.is_corner() {
-            let (way, to) = (start.disk.position() - a, vertex.disk.position() - a);
+            let (way, to) = (disk.disk.position() - a, vertex.disk.position() - a);
             let turn = way.cross(to);
             if turn.abs() <= CLEARLY * way.norm() * to.norm() || way.dot(to) < 0.0 {
-                return false;
+                return None;
             }
             turn.total_cmp(&0.0)
         } else {
             // Counterclockwise around the cell is against the direction of the edge.
-            start.exact.compare_along(&vertex.exact, a, b)
+            disk.exact.compare_along(&vertex.exact, a, b)
         };
-        order == if hand == Hand::Left { Ordering::Less } else { Ordering::Greater }
+        Some(if hand == Hand::Left { order } else { order.reverse() })
     }
 
     /// What the cell to one hand has ahead.
@@ -679,6 +739,14 @@ impl<'m, 'a> Merge<'m, 'a> {
         let twin = half ^ 1;
         let (old, new) = (*self.diagram.half(half), *self.diagram.half(twin));
         let lost = self.diagram.halves.len() as u32;
+        for (end, member) in [(half, old.cell), (twin, new.cell)] {
+            // Where an arc is the first or the last one of a cell, so is what is lost of it.
+            let ends = &mut self.diagram.ends[member.0 as usize];
+            let k = usize::from((hand == Hand::Right) == (end == half));
+            if ends[k] == end {
+                ends[k] = lost + (end ^ half);
+            }
+        }
         match hand {
             Hand::Left => {
                 self.diagram.halves.push(Half { next: NONE, ..old });
@@ -734,6 +802,21 @@ impl<'m, 'a> Merge<'m, 'a> {
                 Some(Cut { old: half, new: twin, cell, cursor, gap })
             }
             Ahead::Arc(_, Some(_), _) => {
+                let mut cursor = cursor;
+                if self.joints.is_empty() {
+                    // All of it is lost here, but the curve may come back to it.
+                    cursor = twin;
+                    match hand {
+                        Hand::Left => {
+                            d.halves[half as usize].next = NONE;
+                            d.halves[twin as usize].prev = NONE;
+                        }
+                        Hand::Right => {
+                            d.halves[half as usize].prev = NONE;
+                            d.halves[twin as usize].next = NONE;
+                        }
+                    }
+                }
                 let (old, new) = match hand {
                     Hand::Left => (old.next, new.prev),
                     Hand::Right => (old.prev, new.next),
