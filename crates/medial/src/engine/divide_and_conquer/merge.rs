@@ -416,7 +416,9 @@ impl<'m, 'a> Merge<'m, 'a> {
                     self.members.disk([curve.right, self.diagram.beyond(half), curve.left]);
                 disk.filter(|disk| {
                     let in_zone = |&m: &Member| self.members.in_zone_of_ring(&disk.exact, m);
-                    disk.triple.iter().all(in_zone) && self.is_ahead(curve, disk)
+                    disk.triple.iter().all(in_zone)
+                        && self.is_ahead(curve, disk)
+                        && self.is_on(half, disk)
                 })
                 .map(|disk| (disk, None, half))
             };
@@ -447,6 +449,19 @@ impl<'m, 'a> Merge<'m, 'a> {
         first.map_or(Ahead::Nothing, |(disk, vertex, half)| {
             Ahead::Arc(Box::new(disk), vertex, half)
         })
+    }
+
+    /// Whether the centre of a disk that touches both elements of an arc lies on the arc, and not on
+    /// another one of the same two.
+    fn is_on(&self, half: u32, disk: &Disk) -> bool {
+        let (left, right) = (self.diagram.half(half).cell, self.diagram.beyond(half));
+        let order = |vertex: u32| {
+            let vertex = self.vertex(vertex);
+            self.members.order(&disk.exact, &vertex.exact, right, left)
+        };
+        let is_vertex = |vertex: u32| vertex != APEX && vertex != INFINITE;
+        let (from, to) = (self.diagram.half(half).from, self.diagram.to(half));
+        (!is_vertex(from) || order(from).is_ge()) && (!is_vertex(to) || order(to).is_le())
     }
 
     /// Orders the spokes from an element to a vertex around its cell and to a disk on the curve, in the
