@@ -62,6 +62,11 @@ fn disks_far_outside_that_cut_each_other_do_not_go_on_for_ever() {
 }
 
 #[test]
+fn a_ring_on_a_path_is_met_first_with_a_part_that_does_not_touch_its_end() {
+    is_right("issue_3_ring_on_a_path_touches_its_end_from_behind.wkt");
+}
+
+#[test]
 fn an_edge_of_another_component_is_not_met_from_behind() {
     let text = read("issue_3_another_component_touched_from_behind.wkt");
     let options = Options { regroup: true, ..Options::default() };

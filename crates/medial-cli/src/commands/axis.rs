@@ -7,7 +7,7 @@ use crate::report::Entry;
 use crate::timings::timed;
 use medial::axis::{Engine, MedialAxis};
 use medial::domain::Domain;
-use medial::engine::{self, EngineError, path_tracing_with};
+use medial::engine::{self, EngineError, divide_and_conquer_with, path_tracing_with};
 use medial_io::svg::Options;
 use medial_io::{Drawing, Format};
 use std::io::IsTerminal as _;
@@ -55,6 +55,7 @@ fn trace(
 ) -> Result<MedialAxis, EngineError> {
     match engine {
         Engine::PathTracing => path_tracing_with(domain, options),
+        Engine::DivideAndConquer => divide_and_conquer_with(domain, options),
         _ => Err(EngineError::Internal {
             stage: "choosing the engine",
             place: medial::geom::Point::default(),
@@ -65,6 +66,7 @@ fn trace(
 fn code(error: &EngineError) -> &'static str {
     match error {
         EngineError::TooLarge { .. } => "too_large",
+        EngineError::Touching { .. } => "touching_boundary",
         EngineError::Cancelled => "cancelled",
         EngineError::TimeLimit => "time_limit",
         _ => "internal",

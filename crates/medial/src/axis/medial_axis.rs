@@ -11,6 +11,8 @@ use crate::geom::Point;
 pub enum Engine {
     /// Tracing of paths after Joan-Arinyo, Pérez and Vilaplana: exact.
     PathTracing,
+    /// Divide and conquer after Lee: exact.
+    DivideAndConquer,
 }
 
 /// The side of the boundary on which an axis lies.

@@ -52,7 +52,10 @@ macro_rules! names {
     };
 }
 
-names!(Engine, "engine", PathTracing => "path_tracing");
+names!(
+    Engine, "engine",
+    PathTracing => "path_tracing", DivideAndConquer => "divide_and_conquer",
+);
 names!(Side, "side", Interior => "interior");
 names!(CurveKind, "curve", Line => "line", Parabola => "parabola");
 names!(SiteKind, "kind of site", Edge => "edge", Vertex => "vertex");

@@ -21,6 +21,15 @@ pub enum EngineError {
         /// Edges of the domain.
         n_edges: usize,
     },
+    /// `divide_and_conquer` takes no boundary that touches itself yet.
+    #[error(
+        "the boundary touches itself at ({}, {}), which divide_and_conquer does not take yet; use path_tracing",
+        place.x, place.y
+    )]
+    Touching {
+        /// One of the places.
+        place: Point,
+    },
     /// Another thread set the flag that cancels.
     #[error("cancelled")]
     Cancelled,

@@ -7,7 +7,7 @@ mod options;
 mod path_tracing;
 mod watch;
 
-pub use divide_and_conquer::divide_and_conquer;
+pub use divide_and_conquer::{divide_and_conquer, divide_and_conquer_with};
 pub use error::EngineError;
 pub use options::Options;
 pub use path_tracing::{

@@ -37,10 +37,6 @@ pub(super) struct Diagram {
     pub vertices: Vec<Vertex>,
     /// The first and the last arc around each cell.
     pub ends: Vec<[u32; 2]>,
-    /// Arcs that merges have made.
-    pub merged: u64,
-    /// Arcs that merges have looked at.
-    pub looked_at: u64,
 }
 
 impl Diagram {
@@ -52,8 +48,6 @@ impl Diagram {
             halves: Vec::with_capacity(24 * n),
             vertices: Vec::with_capacity(6 * n),
             ends: vec![[NONE; 2]; 4 * n],
-            merged: 0,
-            looked_at: 0,
         };
         for edge in 0..n_edges {
             let [left, right] = [Flank::Left, Flank::Right].map(|f| Member::side(edge, f));
@@ -118,7 +112,7 @@ impl Diagram {
         let mut all = vec![half];
         loop {
             let before = self.half(all[all.len() - 1]).prev;
-            if before == NONE || before ^ 1 == half || all.len() > 1000 {
+            if before == NONE || before ^ 1 == half {
                 return all;
             }
             all.push(before ^ 1);

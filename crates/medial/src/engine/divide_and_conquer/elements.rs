@@ -1,10 +1,8 @@
 //! Boundary elements seen from both sides.
 
-use std::cmp::Ordering;
-
 use crate::domain::{Domain, Site};
-use crate::geom::predicates::{Element, ExactDisk};
-use crate::geom::{Governor, Point, TouchingDisk};
+use crate::geom::predicates::Element;
+use crate::geom::{Governor, Point};
 
 /// An element of a two-sided diagram.
 ///
@@ -100,89 +98,4 @@ impl Members<'_> {
             _ => Site::edge(edge),
         }
     }
-
-    /// The disk that touches three elements counterclockwise in this order.
-    pub fn disk(&self, triple: [Member; 3]) -> Option<Disk> {
-        let elements = || triple.map(|m| self.element(m));
-        if let Some(disk) = TouchingDisk::touching(&triple.map(|m| self.governor(m))) {
-            return Some(Disk { triple, disk, exact: ExactDisk::of_certified(elements(), &disk) });
-        }
-        let exact = ExactDisk::new(elements())?;
-        let disk = exact.rounded();
-        (disk.radius > 0.0).then_some(Disk { triple, disk, exact })
-    }
-
-    /// A disk found before.
-    pub fn known(&self, triple: [Member; 3], disk: TouchingDisk) -> Disk {
-        let exact = ExactDisk::of_certified(triple.map(|m| self.element(m)), &disk);
-        Disk { triple, disk, exact }
-    }
-
-    /// Whether a disk that touches the line of a side does so within its ends, which count.
-    pub fn in_zone(&self, disk: &ExactDisk, member: Member) -> bool {
-        if member.is_corner() {
-            return true;
-        }
-        let (a, b) = self.ends(member);
-        disk.along(a, b, a).is_ge() && disk.along(a, b, b).is_le()
-    }
-
-    /// Whether a disk that touches an element of closed rings does so in its zone, which is closed.
-    pub fn in_zone_of_ring(&self, disk: &ExactDisk, member: Member) -> bool {
-        if !member.is_corner() {
-            return self.in_zone(disk, member);
-        }
-        let Site(corner) = self.site(member);
-        let after = corner >> 1;
-        let (before, v) = (self.domain.edge(after).prev, self.place(member));
-        disk.along(self.domain.edge(before).start, v, v).is_ge()
-            && disk.along(v, self.domain.end(after), v).is_le()
-    }
-
-    /// Orders the distance of the centre from an edge with its ends, or from a corner, against the
-    /// radius; `Equal` only where the element itself is touched, and not just one of its ends.
-    pub fn meets(&self, disk: &ExactDisk, member: Member) -> Ordering {
-        let (a, b) = self.ends(member);
-        if member.is_corner() {
-            return disk.side(Element::Corner(a));
-        }
-        let at_end = |p: Point| {
-            if disk.side(Element::Corner(p)).is_lt() { Ordering::Less } else { Ordering::Greater }
-        };
-        if disk.along(a, b, a).is_lt() {
-            return at_end(a);
-        }
-        if disk.along(a, b, b).is_gt() {
-            return at_end(b);
-        }
-        if disk.front(a, b).is_lt() {
-            // From behind: the other side of the edge may be touched, not this one.
-            let behind = disk.side(Element::Edge(b, a));
-            return if behind.is_eq() { Ordering::Greater } else { behind };
-        }
-        disk.side(Element::Edge(a, b))
-    }
-
-    /// Orders two disks along the curve between an element to the right and one to the left.
-    pub fn order(&self, a: &ExactDisk, b: &ExactDisk, right: Member, left: Member) -> Ordering {
-        let ((r0, r1), (l0, l1)) = (self.ends(right), self.ends(left));
-        match (right.is_corner(), left.is_corner()) {
-            (true, true) => a.compare_across(b, l0, r0),
-            // On the normal at an end of the edge: outwards or inwards.
-            (true, false) if r0 == l1 => a.compare_across(b, l0, l1),
-            (true, false) if r0 == l0 => a.compare_across(b, l0, l1).reverse(),
-            (false, true) if l0 == r0 => a.compare_across(b, r0, r1),
-            (false, true) if l0 == r1 => a.compare_across(b, r0, r1).reverse(),
-            (false, _) => a.compare_along(b, r0, r1),
-            (true, false) => a.compare_along(b, l0, l1).reverse(),
-        }
-    }
-}
-
-/// A disk that touches three elements, counterclockwise.
-#[derive(Clone, Debug)]
-pub(super) struct Disk {
-    pub triple: [Member; 3],
-    pub disk: TouchingDisk,
-    pub exact: ExactDisk,
 }

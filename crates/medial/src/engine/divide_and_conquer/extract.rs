@@ -11,11 +11,16 @@ use crate::engine::watch::Watch;
 use crate::geom::Point;
 
 /// The axis, with keypoints and paths in boundary order.
-pub(super) fn axis(members: Members<'_>, diagram: &Diagram) -> Result<MedialAxis, EngineError> {
+pub(super) fn axis(
+    members: Members<'_>,
+    diagram: &Diagram,
+    watch: &Watch<'_>,
+) -> Result<MedialAxis, EngineError> {
     let domain = members.domain;
     let mut traced = Traced::default();
     let mut number = vec![NONE; diagram.vertices.len()];
     for (k, edge) in domain.edges().iter().enumerate() {
+        watch.check()?;
         let k = k as u32;
         let mut cells = vec![Member::side(k, Flank::Left)];
         if edge.corner == Corner::Reflex {
@@ -30,7 +35,7 @@ pub(super) fn axis(members: Members<'_>, diagram: &Diagram) -> Result<MedialAxis
                     place: members.ends(cell).0,
                 })?;
                 let beyond = diagram.beyond(half);
-                let wall = is_wall(members, cell, beyond);
+                let wall = members.is_normal(cell, beyond);
                 if half & 1 == 0 && !wall {
                     let (left, right) = (members.site(cell), members.site(beyond));
                     let ends = [
@@ -48,14 +53,7 @@ pub(super) fn axis(members: Members<'_>, diagram: &Diagram) -> Result<MedialAxis
             }
         }
     }
-    traced.finish(domain, &Watch::new(&crate::engine::Options::default()), Engine::PathTracing)
-}
-
-/// Whether the arc between two cells is the normal of an edge at its end.
-fn is_wall(members: Members<'_>, a: Member, b: Member) -> bool {
-    let (corner, side) = if a.is_corner() { (a, b) } else { (b, a) };
-    let (start, end) = members.ends(side);
-    !side.is_corner() && corner.is_corner() && [start, end].contains(&members.place(corner))
+    traced.finish(domain, watch, Engine::DivideAndConquer)
 }
 
 /// The keypoint where a half starts.
@@ -89,15 +87,11 @@ fn keypoint(
     let contacts: Contacts = cells.collect();
     let walls = walls_at(members, diagram, half);
     let list = from_least(&contacts);
-    let kind = if contacts.len() - walls == 2 {
-        KeypointKind::Transition
-    } else {
-        KeypointKind::Junction
-    };
+    let kind =
+        if contacts.len() - walls == 2 { KeypointKind::Transition } else { KeypointKind::Junction };
     let fixed = contacts.len() == 3;
     let triple: [Site; 3] = triple.map(|m| members.site(m));
-    let disk =
-        Fixed { own: fixed.then_some(&disk), sought: false, found: &disk, triple };
+    let disk = Fixed { own: fixed.then_some(&disk), sought: false, found: &disk, triple };
     let keypoint = traced.add_disk(domain, &disk, kind, &list)?;
     number[vertex as usize] = keypoint;
     Ok(keypoint)
@@ -105,6 +99,6 @@ fn keypoint(
 
 /// Arcs at a vertex that are normals.
 fn walls_at(members: Members<'_>, diagram: &Diagram, half: u32) -> usize {
-    let wall = |h: &u32| is_wall(members, diagram.half(*h).cell, diagram.beyond(*h));
+    let wall = |h: &u32| members.is_normal(diagram.half(*h).cell, diagram.beyond(*h));
     diagram.around(half).iter().filter(|h| wall(h)).count()
 }

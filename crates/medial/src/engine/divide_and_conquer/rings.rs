@@ -4,9 +4,11 @@ use std::cmp::Ordering;
 use std::ops::Range;
 
 use super::diagram::{APEX, Diagram, INFINITE, NONE};
-use super::elements::{Disk, Flank, Member, Members};
-use super::merge::{Broken, Crossing};
+use super::disks::Disk;
+use super::elements::{Flank, Member, Members};
+use super::merge::Crossing;
 use crate::domain::{Corner, Domain, Site, Walk};
+use crate::engine::EngineError;
 use crate::engine::path_tracing::{Contacts, sort};
 use crate::geom::{BoundsTree, Point, Rect, TouchingDisk, Visitor};
 
@@ -63,7 +65,8 @@ impl<'a> Merged<'a> {
         let size = centre.x.abs().max(centre.y.abs()) + disk.radius;
         let bound = if disk.bound.is_finite() { disk.bound } else { 0.0 };
         // With room for rounding: what is near is asked exactly.
-        let reach = (disk.radius + bound) * (1.0 + 64.0 * f64::EPSILON) + 64.0 * f64::EPSILON * size;
+        let reach =
+            (disk.radius + bound) * (1.0 + 64.0 * f64::EPSILON) + 64.0 * f64::EPSILON * size;
         let (domain, walks) = (self.members.domain, &self.walks[..]);
         let mut near = Near { centre, reach, domain, walks, edges: Vec::new() };
         self.tree.visit(&mut near);
@@ -82,9 +85,7 @@ impl<'a> Merged<'a> {
 
     /// Edges that cut an exact disk.
     fn cutting(&self, disk: &Disk) -> Vec<u32> {
-        let cuts = |&edge: &u32| {
-            self.members.meets(&disk.exact, Member::side(edge, Flank::Left)).is_lt()
-        };
+        let cuts = |&edge: &u32| self.members.meets(disk, Member::side(edge, Flank::Left)).is_lt();
         self.near(&disk.disk).into_iter().filter(cuts).collect()
     }
 
@@ -98,10 +99,10 @@ impl<'a> Merged<'a> {
         end: Option<&Disk>,
     ) -> Option<Disk> {
         let mut first: Option<Disk> = None;
-        let order = |a: &Disk, b: &Disk| self.members.order(&a.exact, &b.exact, right, left);
+        let order = |a: &Disk, b: &Disk| self.members.order(a, b, right, left);
         for member in edges.iter().flat_map(|&edge| self.members_at(edge)) {
             let Some(disk) = self.members.disk([right, member, left]) else { continue };
-            if self.members.in_zone(&disk.exact, member)
+            if self.members.in_zone(&disk, member)
                 && start.is_none_or(|start| order(&disk, start).is_gt())
                 && end.is_none_or(|end| order(&disk, end).is_lt())
                 && first.as_ref().is_none_or(|first| order(&disk, first).is_lt())
@@ -113,7 +114,7 @@ impl<'a> Merged<'a> {
     }
 
     /// Where the merge curve crosses an arc around a reflex corner of a ring inside.
-    pub fn crossing(&self, diagram: &Diagram, walk: &Walk) -> Result<Crossing, Broken> {
+    pub fn crossing(&self, diagram: &Diagram, walk: &Walk) -> Result<Crossing, EngineError> {
         let domain = self.members.domain;
         for edge in walk.first..walk.first + walk.len {
             if domain.edge(edge).corner != Corner::Reflex {
@@ -127,7 +128,7 @@ impl<'a> Merged<'a> {
                     INFINITE => None,
                     vertex => {
                         let vertex = diagram.vertices[vertex as usize];
-                        Some(self.members.known(vertex.triple, vertex.disk))
+                        Some(Disk { triple: vertex.triple, disk: vertex.disk })
                     }
                 };
                 if far.as_ref().is_none_or(|far| !self.cutting(far).is_empty()) {
@@ -140,7 +141,7 @@ impl<'a> Merged<'a> {
             }
         }
         let place = domain.edge(walk.first).start;
-        Err(Broken { stage: "looking for the merge curve around a ring", place })
+        Err(EngineError::Internal { stage: "looking for the merge curve around a ring", place })
     }
 
     /// Where the merge curve crosses an arc whose far end is lost.
@@ -150,7 +151,7 @@ impl<'a> Merged<'a> {
             APEX => None,
             vertex => {
                 let vertex = diagram.vertices.get(vertex as usize)?;
-                Some(self.members.known(vertex.triple, vertex.disk))
+                Some(Disk { triple: vertex.triple, disk: vertex.disk })
             }
         };
         let mut edges = match &far {
@@ -159,8 +160,7 @@ impl<'a> Merged<'a> {
         };
         let mut disk = far;
         for _ in 0..MOST_ROUNDS {
-            let next =
-                self.first(&edges, (right, left), start.as_ref(), disk.as_ref())?;
+            let next = self.first(&edges, (right, left), start.as_ref(), disk.as_ref())?;
             edges = self.cutting(&next);
             if edges.is_empty() {
                 return self.crossing_at(diagram, half, next);
@@ -202,14 +202,14 @@ impl<'a> Merged<'a> {
         let domain = members.domain;
         let mut contacts: Contacts = start.triple.iter().map(|&m| members.site(m)).collect();
         for member in self.near(&start.disk).into_iter().flat_map(|edge| self.members_at(edge)) {
-            if members.meets(&start.exact, member).is_eq() {
+            if members.meets(&start, member).is_eq() {
                 contacts.push(members.site(member));
             }
         }
         let triple = start.triple.map(|m| members.site(m));
         contacts.sort_unstable();
         contacts.dedup();
-        sort(domain, &start.disk, Some(&start.exact), &triple, &mut contacts);
+        sort(domain, &start.disk, Some(&members.exact(&start)), &triple, &mut contacts);
         // Counterclockwise after the cell that the curve goes on in comes its other one.
         let right = members.site(diagram.beyond(half));
         let at = contacts.iter().position(|&s| s == right)?;
@@ -222,7 +222,7 @@ impl<'a> Merged<'a> {
     /// The arc around a cell that lies behind a disk as seen from the element.
     fn behind(&self, diagram: &Diagram, cell: Member, disk: &Disk) -> Option<u32> {
         let members = &self.members;
-        let (a, b) = members.ends(cell);
+        let a = members.ends(cell).0;
         let mut half = diagram.ends[cell.0 as usize][0];
         while half != NONE {
             let is_beyond = match diagram.to(half) {
@@ -232,12 +232,11 @@ impl<'a> Merged<'a> {
                 vertex => {
                     let vertex = diagram.vertices[vertex as usize];
                     if cell.is_corner() {
-                        let (to, way) =
-                            (vertex.disk.position() - a, disk.disk.position() - a);
+                        let (to, way) = (vertex.disk.position() - a, disk.disk.position() - a);
                         way.cross(to) >= 0.0
                     } else {
-                        let vertex = members.known(vertex.triple, vertex.disk);
-                        vertex.exact.compare_along(&disk.exact, a, b) != Ordering::Greater
+                        let vertex = Disk { triple: vertex.triple, disk: vertex.disk };
+                        members.compare_along(&vertex, disk, cell) != Ordering::Greater
                     }
                 }
             };

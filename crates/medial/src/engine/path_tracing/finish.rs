@@ -30,7 +30,7 @@ pub(in crate::engine) struct Traced {
 
 /// How much was traced at some moment.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Mark {
+pub(in crate::engine) struct Mark {
     keypoints: u32,
     paths: u32,
 }
@@ -170,7 +170,12 @@ impl Traced {
 }
 
 /// The axis with these tables.
-pub(super) fn axis_of(engine: Engine, sites: SiteTable, keypoints: KeypointTable, paths: PathTable) -> MedialAxis {
+pub(super) fn axis_of(
+    engine: Engine,
+    sites: SiteTable,
+    keypoints: KeypointTable,
+    paths: PathTable,
+) -> MedialAxis {
     let (side, accuracy) = (Side::Interior, Accuracy::Exact);
     MedialAxis::from_tables(engine, side, accuracy, true, sites, keypoints, paths)
 }

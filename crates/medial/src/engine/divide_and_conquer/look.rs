@@ -1,0 +1,182 @@
+//! What the cells beside a merge curve have ahead.
+
+use std::cmp::Ordering;
+
+use super::diagram::{APEX, INFINITE, NONE, Vertex};
+use super::disks::Disk;
+use super::elements::Member;
+use super::infinity::Gap;
+use super::merge::{Curve, Joint, Merge};
+
+/// What a cell has for the curve.
+#[derive(Debug)]
+pub(super) enum Ahead {
+    /// Nothing; the curve goes on through the cell for as long as the other cell lets it.
+    Nothing,
+    /// The list of arcs ends at the element itself.
+    Element,
+    /// The cell reaches infinity before this arc.
+    Infinity(u32),
+    /// This arc is met; at a vertex of the diagram, if it is its far end.
+    Arc(Disk, Option<u32>, u32),
+    /// The curve runs along an arc of a dropped corner up to a vertex.
+    Rim(Disk, u32),
+}
+
+impl Ahead {
+    pub(super) fn disk(&self) -> Option<&Disk> {
+        match self {
+            Self::Arc(disk, ..) | Self::Rim(disk, _) => Some(disk),
+            _ => None,
+        }
+    }
+
+    pub(super) fn vertex(&self) -> Option<u32> {
+        match *self {
+            Self::Arc(_, vertex, _) => vertex,
+            Self::Rim(_, vertex) => Some(vertex),
+            _ => None,
+        }
+    }
+}
+
+/// Left of the curve the arcs of a cell are met counterclockwise, right of it clockwise.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Hand {
+    Left,
+    Right,
+}
+
+impl Merge<'_, '_> {
+    pub(super) fn step(&self, half: u32, hand: Hand) -> u32 {
+        let half = self.diagram.half(half);
+        if hand == Hand::Left { half.next } else { half.prev }
+    }
+
+    pub(super) fn far(&self, half: u32, hand: Hand) -> u32 {
+        if hand == Hand::Left { self.diagram.to(half) } else { self.diagram.half(half).from }
+    }
+
+    pub(super) fn joint_that_dropped(&self, member: Member) -> Option<&Joint> {
+        self.joints.iter().find(|j| j.dropped == member)
+    }
+
+    pub(super) fn vertex(&self, vertex: u32) -> Disk {
+        let Vertex { triple, disk } = self.diagram.vertices[vertex as usize];
+        Disk { triple, disk }
+    }
+
+    /// Whether a disk lies ahead of the start of the present piece.
+    pub(super) fn is_ahead(&self, curve: &Curve, disk: &Disk) -> bool {
+        curve
+            .start
+            .as_ref()
+            .is_none_or(|start| self.members.order(disk, start, curve.right, curve.left).is_gt())
+    }
+
+    /// What the cell to one hand has ahead.
+    pub(super) fn look(&mut self, curve: &mut Curve, hand: Hand) -> Ahead {
+        let (cell, other) = match hand {
+            Hand::Left => (curve.left, curve.right),
+            Hand::Right => (curve.right, curve.left),
+        };
+        let (mut cursor, mut gap) = match hand {
+            Hand::Left => (curve.left_cursor, curve.left_gap),
+            Hand::Right => (curve.right_cursor, curve.right_gap),
+        };
+        let ahead = loop {
+            if let Some(gap) = &mut gap
+                && !self.is_gap_beaten(gap, cursor, hand, other)
+            {
+                break Ahead::Infinity(cursor);
+            }
+            gap = None;
+            let half = cursor;
+            if half == NONE {
+                break Ahead::Element;
+            }
+            let (beyond, far) = (self.diagram.beyond(half), self.far(half, hand));
+            if let Some(joint) = self.joint_that_dropped(beyond) {
+                // The first chain keeps this part of the plane; the curve may run along its rim.
+                let along = joint.own == other;
+                match far {
+                    APEX => break Ahead::Element,
+                    INFINITE => {
+                        if !along && !self.is_beaten(half, hand, other) {
+                            break Ahead::Nothing;
+                        }
+                        let after = self.step(half, hand);
+                        if along {
+                            break Ahead::Infinity(after);
+                        }
+                        (cursor, gap) = (after, Some(Gap { half, reached: None }));
+                        continue;
+                    }
+                    _ => {}
+                }
+                let vertex = self.vertex(far);
+                // Where it comes to the rim in a vertex it leaves it at once.
+                let meets =
+                    if along { Ordering::Equal } else { self.members.meets(&vertex, other) };
+                match meets {
+                    Ordering::Less => {}
+                    Ordering::Equal if self.is_ahead(curve, &vertex) => {
+                        break Ahead::Rim(vertex, far);
+                    }
+                    Ordering::Equal if along => {}
+                    _ => break Ahead::Nothing,
+                }
+                cursor = self.step(half, hand);
+                continue;
+            }
+            match far {
+                APEX => {
+                    if self.is_dead_wall(cell, beyond) {
+                        break Ahead::Element;
+                    }
+                }
+                INFINITE => {
+                    if self.is_beaten(half, hand, other) {
+                        cursor = self.step(half, hand);
+                        gap = Some(Gap { half, reached: None });
+                        continue;
+                    }
+                }
+                _ => {
+                    let vertex = self.vertex(far);
+                    match self.members.meets(&vertex, other) {
+                        Ordering::Less => {
+                            cursor = self.step(half, hand);
+                            continue;
+                        }
+                        Ordering::Equal => {
+                            if self.is_ahead(curve, &vertex) {
+                                break Ahead::Arc(vertex, Some(far), half);
+                            }
+                            cursor = self.step(half, hand);
+                            continue;
+                        }
+                        Ordering::Greater => {}
+                    }
+                }
+            }
+            let disk = self
+                .members
+                .disk([curve.right, beyond, curve.left])
+                .filter(|disk| self.members.in_zone(disk, beyond) && self.is_ahead(curve, disk));
+            break disk.map_or(Ahead::Nothing, |disk| Ahead::Arc(disk, None, half));
+        };
+        match hand {
+            Hand::Left => (curve.left_cursor, curve.left_gap) = (cursor, gap),
+            Hand::Right => (curve.right_cursor, curve.right_gap) = (cursor, gap),
+        }
+        ahead
+    }
+
+    /// Whether the arc between two cells is the normal at a joint on its convex side, where another
+    /// edge is nearer.
+    pub(super) fn is_dead_wall(&self, a: Member, b: Member) -> bool {
+        let (corner, side) = if a.is_corner() { (a, b) } else { (b, a) };
+        !side.is_corner() && self.joints.iter().any(|j| j.own == corner && j.convex == side.flank())
+    }
+}
