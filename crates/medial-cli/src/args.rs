@@ -190,8 +190,7 @@ fn one_line(text: &str) -> String {
 }
 
 fn engine(word: &str) -> Result<Engine, String> {
-    const LATER: [&str; 5] =
-        ["divide_and_conquer", "delaunay_dual", "ridge_following", "brushfire", "raster_transform"];
+    const LATER: [&str; 4] = ["delaunay_dual", "ridge_following", "brushfire", "raster_transform"];
     if LATER.contains(&word.replace('-', "_").as_str()) {
         return Err(format!("this build has no engine {word} yet; use path_tracing"));
     }

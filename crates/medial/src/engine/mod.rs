@@ -2,6 +2,7 @@
 //! [`MedialAxis`](crate::axis::MedialAxis).
 
 mod divide_and_conquer;
+mod draft;
 mod error;
 mod options;
 mod path_tracing;

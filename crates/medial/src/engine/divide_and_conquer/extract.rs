@@ -6,7 +6,8 @@ use super::rings::corner_member;
 use crate::axis::{Engine, KeypointKind, MedialAxis, Path};
 use crate::domain::{Corner, Site};
 use crate::engine::EngineError;
-use crate::engine::path_tracing::{Contacts, Fixed, Traced, from_least};
+use crate::engine::draft::contacts::{Contacts, from_least};
+use crate::engine::draft::{Fixed, Traced};
 use crate::engine::watch::Watch;
 use crate::geom::Point;
 

@@ -9,7 +9,7 @@ use super::elements::{Flank, Member, Members};
 use super::merge::Crossing;
 use crate::domain::{Corner, Domain, Site, Walk};
 use crate::engine::EngineError;
-use crate::engine::path_tracing::{Contacts, sort};
+use crate::engine::draft::contacts::{Contacts, sort};
 use crate::geom::{BoundsTree, Point, Rect, TouchingDisk, Visitor};
 
 /// How much a disk grows that has met nothing yet.

@@ -50,7 +50,7 @@ pub(super) const POOR: f64 = 1e-9;
 
 /// A transition that was passed.
 #[derive(Clone, Debug)]
-pub(in crate::engine) struct Passed {
+pub(super) struct Passed {
     /// Governors of the path that ends here.
     pub right: Site,
     pub left: Site,

@@ -1,16 +1,16 @@
 use smallvec::SmallVec;
 
 use super::chain::{Passed, facing};
-use super::contacts::{Contacts, follows};
+use super::contacts::follows;
 use super::finish::Traced;
 use super::gaps::Gaps;
-use super::positions::Fixed;
 use super::search::{Before, Found, Search, Start};
 use crate::axis::{KeypointKind, Path};
 use crate::domain::{Domain, Site};
 use crate::engine::EngineError;
+use crate::engine::draft::{Fixed, Place};
 use crate::engine::watch::Watch;
-use crate::geom::{Point, TouchingDisk};
+use crate::geom::TouchingDisk;
 
 /// Neighbouring contacts of a keypoint, between which a path leaves.
 pub(super) type Openings = SmallVec<[(Site, Site); 4]>;
@@ -129,45 +129,10 @@ pub(super) fn path(from: u32, to: u32, right: Site, left: Site) -> Path {
     Path { from, to, left: left.0, right: right.0 }
 }
 
-/// A cyclic list from its smallest member on.
-pub(in crate::engine) fn from_least(list: &[Site]) -> Contacts {
-    if let [a, b, c] = *list {
-        return Contacts::from_slice(&three_from_least([a, b, c]));
-    }
-    if let [a, b, c, d] = *list {
-        let turned = match [a, b, c, d].into_iter().min() {
-            least if least == Some(a) => [a, b, c, d],
-            least if least == Some(b) => [b, c, d, a],
-            least if least == Some(c) => [c, d, a, b],
-            _ => [d, a, b, c],
-        };
-        return Contacts::from_slice(&turned);
-    }
-    let least = (0..list.len()).min_by_key(|&k| list[k]).unwrap_or(0);
-    let (mut from_least, (end, start)) = (Contacts::new(), list.split_at(least));
-    from_least.extend_from_slice(start);
-    from_least.extend_from_slice(end);
-    from_least
-}
-
-/// The same of three.
-#[inline]
-pub(super) fn three_from_least([a, b, c]: [Site; 3]) -> [Site; 3] {
-    if a < b && a < c {
-        [a, b, c]
-    } else if b < c {
-        [b, c, a]
-    } else {
-        [c, a, b]
-    }
-}
-
 impl Start {
     /// Where a path starts that leaves this disk.
     pub fn at(disk: &TouchingDisk) -> Self {
-        let centre = disk.position();
-        let size = |p: Point| p.x.abs() + p.y.abs();
-        let rounding = f64::EPSILON * (size(centre) + size(disk.origin));
-        Self { centre, radius: disk.radius, doubt: disk.bound + rounding, triple: None }
+        let Place { centre, radius, doubt } = Place::of(disk);
+        Self { centre, radius, doubt, triple: None }
     }
 }

@@ -29,7 +29,6 @@
 //! - Where no half-line bounds a path [JPV, Fig. 12] a growing probe finds the third governor.
 
 mod chain;
-mod contacts;
 mod course;
 mod finish;
 mod front;
@@ -38,12 +37,9 @@ mod hand;
 mod holes;
 mod met;
 mod nearby;
-mod numbers;
 mod order;
 mod parallel;
-mod positions;
 mod probe;
-mod refine;
 mod rings;
 mod search;
 mod settle;
@@ -52,13 +48,10 @@ mod touch;
 mod tracer;
 mod verify;
 
-pub(super) use contacts::{Contacts, sort};
-pub(super) use finish::Traced;
-pub(super) use hand::from_least;
-pub(super) use positions::Fixed;
 pub use search::Candidate;
 pub use steps::{Step, Steps};
 
+use super::draft::contacts;
 use super::watch::Watch;
 use super::{EngineError, Options};
 use crate::axis::MedialAxis;

@@ -39,7 +39,7 @@ pub struct Candidate {
 
 /// Where a path starts.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::engine) struct Start {
+pub(super) struct Start {
     pub centre: Point,
     pub radius: f64,
     /// Bound on the error of both.

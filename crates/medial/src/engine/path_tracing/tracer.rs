@@ -1,9 +1,10 @@
 use std::ops::Range;
 
 use super::contacts::follows;
+use super::contacts::{from_least, three_from_least};
 use super::finish::{Mark, Traced};
 use super::gaps::{Gaps, Open};
-use super::hand::{Arrival, Hand, from_least, openings, path, three_from_least};
+use super::hand::{Arrival, Hand, openings, path};
 use super::search::{Found, Search};
 use crate::axis::{Engine, MedialAxis};
 use crate::domain::{Corner, Domain, Site};

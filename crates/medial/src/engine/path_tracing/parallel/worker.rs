@@ -1,8 +1,9 @@
 use std::ops::Range;
 use std::sync::atomic::Ordering;
 
+use super::super::contacts::from_least;
 use super::super::finish::Traced;
-use super::super::hand::{Arrival, Hand, Openings, from_least, openings, path};
+use super::super::hand::{Arrival, Hand, Openings, openings, path};
 use super::super::search::{Found, Index, Search, Start};
 use super::super::tracer::{Care, Tracer, most_keypoints};
 use super::meetings::{Arrived, Gap, Place};

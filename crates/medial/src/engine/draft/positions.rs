@@ -9,7 +9,6 @@ use smallvec::SmallVec;
 
 use super::contacts::{Contacts, follows};
 use super::refine::refined;
-use super::search::Start;
 use crate::domain::{Domain, Site};
 use crate::geom::predicates::ExactDisk;
 use crate::geom::{Point, TouchingDisk};
@@ -25,6 +24,25 @@ const CLEARLY_WIDER: f64 = 1.0 + 1e-6;
 /// Contact runs up to which every triple is weighed.
 const FEW_RUNS: usize = 6;
 
+/// Where a disk is, in the coordinates of the input.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::engine) struct Place {
+    pub centre: Point,
+    pub radius: f64,
+    /// Bound on the error of both.
+    pub doubt: f64,
+}
+
+impl Place {
+    /// That of a certified disk.
+    pub fn of(disk: &TouchingDisk) -> Self {
+        let centre = disk.position();
+        let size = |p: Point| p.x.abs() + p.y.abs();
+        let rounding = f64::EPSILON * (size(centre) + size(disk.origin));
+        Self { centre, radius: disk.radius, doubt: disk.bound + rounding }
+    }
+}
+
 /// The disk of a keypoint as it was found.
 pub(in crate::engine) struct Fixed<'a> {
     /// The disk, if it depends on the governors only, and not on how it was found.
@@ -39,9 +57,13 @@ pub(in crate::engine) struct Fixed<'a> {
 
 /// Centre and radius of a keypoint with these governors, within 4 ulp of max(|x|, |y|, radius).
 #[inline(never)]
-pub(super) fn position(domain: &Domain, list: &[Site], disk: &Fixed<'_>) -> Option<(Point, f64)> {
+pub(in crate::engine) fn position(
+    domain: &Domain,
+    list: &[Site],
+    disk: &Fixed<'_>,
+) -> Option<(Point, f64)> {
     let whole = disk.own.unwrap_or(disk.found);
-    let found = Start::at(whole);
+    let found = Place::of(whole);
     let triple = best_triple(domain, list, whole).unwrap_or(disk.triple);
     let governors = domain.governors(triple);
     // Far from the start there may be another disk of the same three elements.
@@ -57,7 +79,7 @@ pub(super) fn position(domain: &Domain, list: &[Site], disk: &Fixed<'_>) -> Opti
         None
     } else {
         let disk = TouchingDisk::touching(&governors);
-        let start = disk.map(|disk| Start::at(&disk));
+        let start = disk.map(|disk| Place::of(&disk));
         let start = start.filter(|s| near(s.centre, s.radius, found.doubt + s.doubt));
         if let (Some(disk), Some(_)) = (disk, start)
             && disk.is_precise()
@@ -66,7 +88,7 @@ pub(super) fn position(domain: &Domain, list: &[Site], disk: &Fixed<'_>) -> Opti
         }
         start
     };
-    if let Some(Start { centre, radius, doubt, .. }) = start {
+    if let Some(Place { centre, radius, doubt }) = start {
         let precise = refined(&governors, centre, radius);
         if let Some(precise) = precise.filter(|&(c, r)| near(c, r, found.doubt + doubt)) {
             return Some(precise);

@@ -14,6 +14,39 @@ const CLEAR_ANGLE: f64 = 1e-6;
 /// Governors of a keypoint; more than a few are rare.
 pub(in crate::engine) type Contacts = SmallVec<[Site; 8]>;
 
+/// A cyclic list from its smallest member on.
+pub(in crate::engine) fn from_least(list: &[Site]) -> Contacts {
+    if let [a, b, c] = *list {
+        return Contacts::from_slice(&three_from_least([a, b, c]));
+    }
+    if let [a, b, c, d] = *list {
+        let turned = match [a, b, c, d].into_iter().min() {
+            least if least == Some(a) => [a, b, c, d],
+            least if least == Some(b) => [b, c, d, a],
+            least if least == Some(c) => [c, d, a, b],
+            _ => [d, a, b, c],
+        };
+        return Contacts::from_slice(&turned);
+    }
+    let least = (0..list.len()).min_by_key(|&k| list[k]).unwrap_or(0);
+    let (mut from_least, (end, start)) = (Contacts::new(), list.split_at(least));
+    from_least.extend_from_slice(start);
+    from_least.extend_from_slice(end);
+    from_least
+}
+
+/// The same of three.
+#[inline]
+pub(in crate::engine) fn three_from_least([a, b, c]: [Site; 3]) -> [Site; 3] {
+    if a < b && a < c {
+        [a, b, c]
+    } else if b < c {
+        [b, c, a]
+    } else {
+        [c, a, b]
+    }
+}
+
 /// Sorts contacts counterclockwise by footpoint and drops repetitions.
 pub(in crate::engine) fn sort(
     domain: &Domain,
@@ -146,7 +179,7 @@ fn direction_turn(pa: Point, qa: Point, pb: Point, qb: Point) -> Ordering {
 
 /// Whether `b` comes directly after `a` along the boundary.
 #[inline]
-pub(super) fn follows(domain: &Domain, a: Site, b: Site) -> bool {
+pub(in crate::engine) fn follows(domain: &Domain, a: Site, b: Site) -> bool {
     let next = if a.is_edge() { domain.edge(a.index()).next } else { a.index() };
     if a.is_edge() {
         b == Site::corner(next)
