@@ -38,7 +38,7 @@ fn area(domain: &Domain) -> (f64, f64) {
         let origin = domain.edge(walk.first).start;
         let local =
             |p: Point| (Double::difference(p.x, origin.x), Double::difference(p.y, origin.y));
-        for edge in walk.first..walk.first + walk.len {
+        for edge in walk.edges() {
             let ((ax, ay), (bx, by)) = (local(domain.edge(edge).start), local(domain.end(edge)));
             let term = ax * by - ay * bx;
             sum = sum + term;

@@ -21,7 +21,7 @@ pub(super) fn check(context: &Context, found: &Keypoints, defects: &mut Vec<Defe
         }
     }
     for (number, walk) in domain.walks().iter().enumerate() {
-        let edges = walk.first..walk.first + walk.len;
+        let edges = walk.edges();
         let sites = |edge: u32| [Site::corner(edge), Site::edge(edge)];
         if !edges.clone().flat_map(sites).any(|site| governs[site.0 as usize]) {
             let first = Site::edge(walk.first);

@@ -110,7 +110,7 @@ mod tests {
             .walks()
             .iter()
             .map(|w| {
-                let walk = w.first..w.first + w.len;
+                let walk = w.edges();
                 let start = |e: u32| domain(&[0, 1, 2, 3, 4]).edge(e).start;
                 let low = walk.map(start).min_by(|a, b| a.lexicographic(*b)).expect("edges");
                 (low.x, low.y)
@@ -124,7 +124,7 @@ mod tests {
     fn links_lines_and_names_move_with_their_holes() {
         let d = domain(&[3, 1, 0, 4, 2]);
         for (number, walk) in (0..).zip(d.walks()) {
-            for edge in walk.first..walk.first + walk.len {
+            for edge in walk.edges() {
                 assert_eq!(d.edge(edge).walk, number);
                 assert_eq!(d.edge(d.edge(edge).next).prev, edge);
                 let ring = d.origin(edge).ring;

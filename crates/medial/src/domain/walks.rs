@@ -1,3 +1,4 @@
+use std::ops::Range;
 use std::sync::OnceLock;
 
 use super::Report;
@@ -105,6 +106,15 @@ pub struct Walk {
     pub polygon: u32,
     /// Connected component of the open interior, from 0 in the order of the outer walks.
     pub component: u32,
+}
+
+impl Walk {
+    /// The numbers of its edges.
+    #[inline]
+    #[must_use]
+    pub fn edges(&self) -> Range<u32> {
+        self.first..self.first + self.len
+    }
 }
 
 /// A valid polygonal domain: the closed boundary walks of one feature.

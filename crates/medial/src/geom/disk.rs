@@ -160,6 +160,14 @@ impl TouchingDisk {
         self.origin + self.centre
     }
 
+    /// Bound on the error of the length of the way `q` from a point to the centre, less the radius, and of
+    /// its products with unit vectors; `a` is the point relative to the origin.
+    #[inline]
+    pub(crate) fn doubt(&self, a: Point, q: Point) -> f64 {
+        self.bound
+            + U * (16.0 * (q.x.abs() + q.y.abs()) + a.x.abs() + a.y.abs() + 2.0 * self.radius)
+    }
+
     /// Whether its position and radius, rounded, are within 4 ulp of max(|x|, |y|, radius).
     #[inline]
     #[must_use]

@@ -1,7 +1,6 @@
 //! Ends a piece of a merge curve where it meets an arc, and starts the next one.
 
-use super::diagram::{Half, INFINITE, NONE, Vertex};
-use super::disks::Disk;
+use super::diagram::{Half, INFINITE, NONE};
 use super::elements::Member;
 use super::infinity::Gap;
 use super::look::{Ahead, Hand};
@@ -49,9 +48,8 @@ impl Merge<'_, '_> {
             (Some(vertex), None) | (None, Some(vertex)) => vertex,
             (None, None) => {
                 let disk = left.as_ref().or(right.as_ref()).and_then(Ahead::disk);
-                let Some(Disk { triple, disk, .. }) = disk else { return };
-                self.diagram.vertices.push(Vertex { triple: *triple, disk: *disk });
-                self.diagram.vertices.len() as u32 - 1
+                let Some(&disk) = disk else { return };
+                self.diagram.vertex(disk)
             }
         };
         let to_left =
@@ -158,7 +156,7 @@ impl Merge<'_, '_> {
         let unbounded = d.half(near).from == INFINITE;
         let gap = unbounded.then_some(Gap { half: twin, reached: None });
         let (cell, old, new) = (d.half(twin).cell, *d.half(half), *d.half(twin));
-        let cursor = if hand == Hand::Left { new.next } else { new.prev };
+        let cursor = new.after(hand);
         match ahead {
             Ahead::Arc(_, None, _) => {
                 d.halves[near as usize].from = vertex;
@@ -180,10 +178,7 @@ impl Merge<'_, '_> {
                         }
                     }
                 }
-                let (old, new) = match hand {
-                    Hand::Left => (old.next, new.prev),
-                    Hand::Right => (old.prev, new.next),
-                };
+                let (old, new) = (old.after(hand), new.before(hand));
                 Some(Cut { old, new, cell, cursor, gap })
             }
             Ahead::Rim(..) => {
@@ -191,8 +186,7 @@ impl Merge<'_, '_> {
                 // Around the vertex over the dropped corners.
                 let mut turned = twin;
                 let rim = loop {
-                    let turned_half = d.half(turned);
-                    let arc = if hand == Hand::Left { turned_half.prev } else { turned_half.next };
+                    let arc = d.half(turned).before(hand);
                     let cell = d.beyond(arc);
                     if cell == own {
                         return None;
@@ -202,12 +196,9 @@ impl Merge<'_, '_> {
                     }
                     turned = arc ^ 1;
                 };
-                let new = *d.half(rim);
-                let (old, new_half) = match hand {
-                    Hand::Left => (old.next, new.prev),
-                    Hand::Right => (old.prev, new.next),
-                };
-                Some(Cut { old, new: new_half, cell: new.cell, cursor: rim, gap: None })
+                let new = d.half(rim);
+                let (cell, new) = (new.cell, new.before(hand));
+                Some(Cut { old: old.after(hand), new, cell, cursor: rim, gap: None })
             }
             _ => None,
         }

@@ -1,7 +1,7 @@
 //! Diagrams as lists of the arcs around each cell.
 
+use super::disks::Disk;
 use super::elements::{Flank, Member};
-use crate::geom::TouchingDisk;
 
 /// No arc.
 pub(super) const NONE: u32 = u32::MAX;
@@ -23,18 +23,12 @@ pub(super) struct Half {
     pub prev: u32,
 }
 
-/// A vertex: its disk and three of the elements that it touches.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Vertex {
-    pub triple: [Member; 3],
-    pub disk: TouchingDisk,
-}
-
 /// The diagrams of some chains, with all their arcs.
 #[derive(Debug)]
 pub(super) struct Diagram {
     pub halves: Vec<Half>,
-    pub vertices: Vec<Vertex>,
+    /// The disk of each vertex, by three of the elements that it touches.
+    pub vertices: Vec<Disk>,
     /// The first and the last arc around each cell.
     pub ends: Vec<[u32; 2]>,
 }
@@ -100,6 +94,17 @@ impl Diagram {
     /// The cell beyond an arc.
     pub fn beyond(&self, half: u32) -> Member {
         self.half(half ^ 1).cell
+    }
+
+    /// A new vertex.
+    pub fn vertex(&mut self, disk: Disk) -> u32 {
+        self.vertices.push(disk);
+        self.vertices.len() as u32 - 1
+    }
+
+    /// The disk of a vertex, if it is one: neither in a corner nor at infinity.
+    pub fn disk(&self, vertex: u32) -> Option<Disk> {
+        self.vertices.get(vertex as usize).copied()
     }
 
     /// The vertex where an arc ends.

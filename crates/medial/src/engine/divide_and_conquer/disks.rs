@@ -7,8 +7,7 @@
 use std::cmp::Ordering;
 
 use super::elements::{Flank, Member, Members};
-use crate::domain::Site;
-use crate::geom::predicates::{Element, ExactDisk};
+use crate::geom::predicates::{Element, ExactDisk, sign};
 use crate::geom::{Point, TouchingDisk, U};
 
 /// A disk that touches three elements, counterclockwise.
@@ -16,11 +15,6 @@ use crate::geom::{Point, TouchingDisk, U};
 pub(super) struct Disk {
     pub triple: [Member; 3],
     pub disk: TouchingDisk,
-}
-
-/// The sign of a number that may be off by some amount, if that is certain.
-fn sign(x: f64, doubt: f64) -> Option<Ordering> {
-    (x.abs() > doubt).then_some(if x > 0.0 { Ordering::Greater } else { Ordering::Less })
 }
 
 impl Members<'_> {
@@ -44,23 +38,18 @@ impl Members<'_> {
     fn way(&self, disk: &TouchingDisk, from: Point) -> (Point, f64) {
         let a = from - disk.origin;
         let q = disk.centre - a;
-        let sizes = 16.0 * (q.x.abs() + q.y.abs()) + a.x.abs() + a.y.abs() + 2.0 * disk.radius;
-        (q, disk.bound + U * sizes)
+        (q, disk.doubt(a, q))
     }
 
-    /// The unit vector along a side, seen from its left.
-    #[inline]
-    fn direction(&self, side: Member) -> Point {
-        let direction = self.domain.edge(side.edge()).direction;
-        if side.flank() == Flank::Left { direction } else { -direction }
+    /// Whether a disk touches a side and a corner that ends it, so both in that corner.
+    fn touches_end(&self, disk: &Disk, side: Member, end: Point) -> bool {
+        disk.triple.contains(&side)
+            && disk.triple.iter().any(|&m| m.is_corner() && self.place(m) == end)
     }
 
     /// Orders the centre along a side against one of its ends.
     fn along(&self, disk: &Disk, side: Member, end: Point) -> Ordering {
-        // A corner and an edge that ends in it are touched there, if both are.
-        if disk.triple.contains(&side)
-            && disk.triple.iter().any(|&m| m.is_corner() && self.place(m) == end)
-        {
+        if self.touches_end(disk, side, end) {
             return Ordering::Equal;
         }
         let (way, doubt) = self.way(&disk.disk, end);
@@ -84,8 +73,7 @@ impl Members<'_> {
         if !member.is_corner() {
             return self.in_zone(disk, member);
         }
-        let Site(corner) = self.site(member);
-        let after = corner >> 1;
+        let after = self.site(member).index();
         let before = self.domain.edge(after).prev;
         let v = self.place(member);
         let side = |edge: u32| Member::side(edge, Flank::Left);
@@ -151,14 +139,11 @@ impl Members<'_> {
     /// Orders the footpoints of two disks along a side that both touch.
     pub fn compare_along(&self, a: &Disk, b: &Disk, side: Member) -> Ordering {
         let (start, end) = self.ends(side);
-        let touches = |disk: &Disk, p: Point| {
-            disk.triple.contains(&side)
-                && disk.triple.iter().any(|&m| m.is_corner() && self.place(m) == p)
-        };
-        if self.is_same(a, b) || [start, end].iter().any(|&p| touches(a, p) && touches(b, p)) {
+        let at = |disk: &Disk, p: Point| self.touches_end(disk, side, p);
+        if self.is_same(a, b) || [start, end].iter().any(|&p| at(a, p) && at(b, p)) {
             return Ordering::Equal;
         }
-        self.compare([a, b], self.ends(side), false)
+        self.compare([a, b], (start, end), false)
     }
 
     /// Whether two disks are the same by their elements: in one cyclic order, or in any if a corner and an

@@ -84,9 +84,14 @@ impl Members<'_> {
         if member.is_corner() {
             return Governor::Corner(start);
         }
-        let direction = self.domain.edge(member.edge()).direction;
-        let direction = if member.flank() == Flank::Left { direction } else { -direction };
-        Governor::Edge { start, end, direction }
+        Governor::Edge { start, end, direction: self.direction(member) }
+    }
+
+    /// The unit vector along a side, seen from its left.
+    #[inline]
+    pub fn direction(&self, side: Member) -> Point {
+        let direction = self.domain.edge(side.edge()).direction;
+        if side.flank() == Flank::Left { direction } else { -direction }
     }
 
     /// The site of the interior that an element is.
@@ -96,6 +101,19 @@ impl Members<'_> {
             0 => Site::corner(edge),
             3 => Site::corner(self.domain.edge(edge).next),
             _ => Site::edge(edge),
+        }
+    }
+
+    /// The element that a site of the interior is in the finished diagram of its ring.
+    pub fn member(&self, site: Site) -> Member {
+        let (edge, record) = (site.index(), self.domain.edge(site.index()));
+        if site.is_edge() {
+            Member::side(edge, Flank::Left)
+        } else if edge == self.domain.walks()[record.walk as usize].first {
+            Member::start(edge)
+        } else {
+            // The chain that ends in a corner keeps it; at the start of a walk the one that starts.
+            Member::end(record.prev)
         }
     }
 }

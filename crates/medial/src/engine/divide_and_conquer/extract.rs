@@ -1,8 +1,8 @@
 //! The axis of the interior, read off a finished diagram.
 
-use super::diagram::{APEX, Diagram, NONE, Vertex};
+use super::diagram::{APEX, Diagram, NONE};
+use super::disks::Disk;
 use super::elements::{Flank, Member, Members};
-use super::rings::corner_member;
 use crate::axis::{Engine, KeypointKind, MedialAxis, Path};
 use crate::domain::{Corner, Site};
 use crate::engine::EngineError;
@@ -18,14 +18,15 @@ pub(super) fn axis(
     watch: &Watch<'_>,
 ) -> Result<MedialAxis, EngineError> {
     let domain = members.domain;
-    let mut traced = Traced::default();
+    let n_holes = domain.walks().iter().filter(|walk| walk.hole).count();
+    let mut traced = Traced::with_room(domain.edges().len(), n_holes);
     let mut number = vec![NONE; diagram.vertices.len()];
     for (k, edge) in domain.edges().iter().enumerate() {
         watch.check()?;
         let k = k as u32;
         let mut cells = vec![Member::side(k, Flank::Left)];
         if edge.corner == Corner::Reflex {
-            cells.push(corner_member(domain, k));
+            cells.push(members.member(Site::corner(k)));
         }
         for cell in cells {
             let mut half = diagram.ends[cell.0 as usize][0];
@@ -36,8 +37,7 @@ pub(super) fn axis(
                     place: members.ends(cell).0,
                 })?;
                 let beyond = diagram.beyond(half);
-                let wall = members.is_normal(cell, beyond);
-                if half & 1 == 0 && !wall {
+                if half & 1 == 0 && !members.is_normal(cell, beyond) {
                     let (left, right) = (members.site(cell), members.site(beyond));
                     let ends = [
                         keypoint(members, diagram, &mut traced, &mut number, half)?,
@@ -80,26 +80,23 @@ fn keypoint(
     {
         return Ok(known);
     }
-    let Some(&Vertex { triple, disk }) = diagram.vertices.get(vertex as usize) else {
-        let place = members.ends(diagram.half(half).cell).0;
-        return Err(EngineError::Internal { stage: "reading a path", place });
-    };
-    let cells = diagram.around(half).into_iter().map(|h| members.site(diagram.half(h).cell));
+    let place = members.ends(diagram.half(half).cell).0;
+    let broken = EngineError::Internal { stage: "reading a path", place };
+    let Disk { triple, disk } = diagram.disk(vertex).ok_or(broken)?;
+    let around = diagram.around(half);
+    let cells = around.iter().map(|&h| members.site(diagram.half(h).cell));
     let contacts: Contacts = cells.collect();
-    let walls = walls_at(members, diagram, half);
-    let list = from_least(&contacts);
-    let kind =
-        if contacts.len() - walls == 2 { KeypointKind::Transition } else { KeypointKind::Junction };
-    let fixed = contacts.len() == 3;
-    let triple: [Site; 3] = triple.map(|m| members.site(m));
-    let disk = Fixed { own: fixed.then_some(&disk), sought: false, found: &disk, triple };
-    let keypoint = traced.add_disk(domain, &disk, kind, &list)?;
+    let is_normal = |&&h: &&u32| members.is_normal(diagram.half(h).cell, diagram.beyond(h));
+    let normals = around.iter().filter(is_normal).count();
+    let kind = if contacts.len() - normals == 2 {
+        KeypointKind::Transition
+    } else {
+        KeypointKind::Junction
+    };
+    let own = (contacts.len() == 3).then_some(&disk);
+    let triple = triple.map(|m| members.site(m));
+    let fixed = Fixed { own, sought: false, found: &disk, triple };
+    let keypoint = traced.add_disk(domain, &fixed, kind, &from_least(&contacts))?;
     number[vertex as usize] = keypoint;
     Ok(keypoint)
-}
-
-/// Arcs at a vertex that are normals.
-fn walls_at(members: Members<'_>, diagram: &Diagram, half: u32) -> usize {
-    let wall = |h: &u32| members.is_normal(diagram.half(*h).cell, diagram.beyond(*h));
-    diagram.around(half).iter().filter(|h| wall(h)).count()
 }

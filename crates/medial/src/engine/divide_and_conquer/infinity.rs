@@ -25,7 +25,7 @@ pub(super) fn turn(a: Point, b: Point, c: Point) -> Ordering {
 impl Merge<'_, '_> {
     /// Two points on the line that an unbounded arc is perpendicular to, so that its far end lies to the
     /// left of it: the two corners between which it runs, or the ends of the edge whose normal it is.
-    pub(super) fn base(&self, half: u32, hand: Hand) -> (Point, Point) {
+    fn base(&self, half: u32, hand: Hand) -> (Point, Point) {
         let (cell, beyond) = (self.diagram.half(half).cell, self.diagram.beyond(half));
         // Outwards with `left` to the left.
         let (left, right) = if hand == Hand::Left { (cell, beyond) } else { (beyond, cell) };

@@ -2,7 +2,7 @@
 
 use std::cmp::Ordering;
 
-use super::diagram::{APEX, INFINITE, NONE, Vertex};
+use super::diagram::{APEX, Half, INFINITE, NONE};
 use super::disks::Disk;
 use super::elements::Member;
 use super::infinity::Gap;
@@ -47,23 +47,33 @@ pub(super) enum Hand {
     Right,
 }
 
+impl Half {
+    /// The one after this around the cell, in the direction in which the arcs to a hand are met.
+    pub(super) fn after(&self, hand: Hand) -> u32 {
+        if hand == Hand::Left { self.next } else { self.prev }
+    }
+
+    /// The one before it.
+    pub(super) fn before(&self, hand: Hand) -> u32 {
+        if hand == Hand::Left { self.prev } else { self.next }
+    }
+}
+
 impl Merge<'_, '_> {
     pub(super) fn step(&self, half: u32, hand: Hand) -> u32 {
-        let half = self.diagram.half(half);
-        if hand == Hand::Left { half.next } else { half.prev }
+        self.diagram.half(half).after(hand)
     }
 
     pub(super) fn far(&self, half: u32, hand: Hand) -> u32 {
         if hand == Hand::Left { self.diagram.to(half) } else { self.diagram.half(half).from }
     }
 
-    pub(super) fn joint_that_dropped(&self, member: Member) -> Option<&Joint> {
+    fn joint_that_dropped(&self, member: Member) -> Option<&Joint> {
         self.joints.iter().find(|j| j.dropped == member)
     }
 
     pub(super) fn vertex(&self, vertex: u32) -> Disk {
-        let Vertex { triple, disk } = self.diagram.vertices[vertex as usize];
-        Disk { triple, disk }
+        self.diagram.vertices[vertex as usize]
     }
 
     /// Whether a disk lies ahead of the start of the present piece.
@@ -175,7 +185,7 @@ impl Merge<'_, '_> {
 
     /// Whether the arc between two cells is the normal at a joint on its convex side, where another
     /// edge is nearer.
-    pub(super) fn is_dead_wall(&self, a: Member, b: Member) -> bool {
+    fn is_dead_wall(&self, a: Member, b: Member) -> bool {
         let (corner, side) = if a.is_corner() { (a, b) } else { (b, a) };
         !side.is_corner() && self.joints.iter().any(|j| j.own == corner && j.convex == side.flank())
     }

@@ -7,7 +7,7 @@
 
 use std::cmp::Ordering;
 
-use super::diagram::{APEX, Diagram, INFINITE, NONE, Vertex};
+use super::diagram::{APEX, Diagram, INFINITE, NONE};
 use super::disks::Disk;
 use super::elements::{Flank, Member, Members};
 use super::infinity::{Gap, turn};
@@ -111,6 +111,19 @@ pub(super) struct Curve {
     pub piece: u32,
 }
 
+impl Curve {
+    /// A curve between two cells, each with the arc to be looked at first.
+    fn new(
+        (right, right_cursor): (Member, u32),
+        (left, left_cursor): (Member, u32),
+        start: Option<Disk>,
+        piece: u32,
+    ) -> Self {
+        let (right_gap, left_gap) = (None, None);
+        Self { right, left, right_cursor, left_cursor, right_gap, left_gap, start, piece }
+    }
+}
+
 impl<'m, 'a> Merge<'m, 'a> {
     pub fn new(
         members: Members<'a>,
@@ -140,22 +153,11 @@ impl<'m, 'a> Merge<'m, 'a> {
 
     /// Follows the curve from a joint to another one, or the same on its other side, or to infinity.
     fn walk(&mut self, right: Member, left: Member) -> Result<Option<(usize, Flank)>, EngineError> {
-        let ends = |d: &Diagram, m: Member| d.ends[m.0 as usize];
-        let (left_cursor, right_cursor) =
-            (ends(self.diagram, left)[0], ends(self.diagram, right)[1]);
         let piece = self.diagram.arc(left, right, APEX);
-        self.diagram.ends[left.0 as usize][0] = piece;
-        self.diagram.ends[right.0 as usize][1] = piece ^ 1;
-        let mut curve = Curve {
-            right,
-            left,
-            right_cursor,
-            left_cursor,
-            right_gap: None,
-            left_gap: None,
-            start: None,
-            piece,
-        };
+        let ends = &mut self.diagram.ends;
+        let left_cursor = std::mem::replace(&mut ends[left.0 as usize][0], piece);
+        let right_cursor = std::mem::replace(&mut ends[right.0 as usize][1], piece ^ 1);
+        let mut curve = Curve::new((right, right_cursor), (left, left_cursor), None, piece);
         self.follow(&mut curve, None)
     }
 
@@ -209,20 +211,10 @@ impl<'m, 'a> Merge<'m, 'a> {
     pub fn close(mut self, crossing: Crossing) -> Result<(), EngineError> {
         let Crossing { half, start, left, left_cursor } = crossing;
         let right = self.diagram.beyond(half);
-        let vertex = self.diagram.vertices.len() as u32;
-        self.diagram.vertices.push(Vertex { triple: start.triple, disk: start.disk });
+        let vertex = self.diagram.vertex(start);
         let right_cursor = self.split(half, vertex, Hand::Right);
         let piece = self.diagram.arc(left, right, vertex);
-        let mut curve = Curve {
-            right,
-            left,
-            right_cursor,
-            left_cursor,
-            right_gap: None,
-            left_gap: None,
-            start: Some(start),
-            piece,
-        };
+        let mut curve = Curve::new((right, right_cursor), (left, left_cursor), Some(start), piece);
         // Seen from the cell that it comes back through, it ends where the lost part starts.
         let kept = half;
         let half = right_cursor ^ 1;

@@ -163,7 +163,7 @@ fn merge_rings(
     });
     let mut order: Vec<(f64, u32)> = Vec::with_capacity(domain.walks().len());
     for (k, walk) in domain.walks().iter().enumerate() {
-        let edges = walk.first..walk.first + walk.len;
+        let edges = walk.edges();
         let bounds = edges.fold(Rect::EMPTY, |all, e| all.with(domain.edge(e).start));
         order.push((bounds.max.x - bounds.min.x, k as u32));
     }

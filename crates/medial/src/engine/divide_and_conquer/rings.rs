@@ -78,7 +78,7 @@ impl<'a> Merged<'a> {
         let domain = self.members.domain;
         let next = domain.edge(edge).next;
         let corner = move |k: u32| {
-            (domain.edge(k).corner == Corner::Reflex).then(|| corner_member(domain, k))
+            (domain.edge(k).corner == Corner::Reflex).then(|| self.members.member(Site::corner(k)))
         };
         [Some(Member::side(edge, Flank::Left)), corner(edge), corner(next)].into_iter().flatten()
     }
@@ -116,21 +116,18 @@ impl<'a> Merged<'a> {
     /// Where the merge curve crosses an arc around a reflex corner of a ring inside.
     pub fn crossing(&self, diagram: &Diagram, walk: &Walk) -> Result<Crossing, EngineError> {
         let domain = self.members.domain;
-        for edge in walk.first..walk.first + walk.len {
+        for edge in walk.edges() {
             if domain.edge(edge).corner != Corner::Reflex {
                 continue;
             }
-            let cell = corner_member(domain, edge);
+            let cell = self.members.member(Site::corner(edge));
             let mut half = diagram.ends[cell.0 as usize][0];
             while half != NONE {
-                let far = match diagram.to(half) {
-                    APEX => break,
-                    INFINITE => None,
-                    vertex => {
-                        let vertex = diagram.vertices[vertex as usize];
-                        Some(Disk { triple: vertex.triple, disk: vertex.disk })
-                    }
-                };
+                if diagram.to(half) == APEX {
+                    break;
+                }
+                // Infinity has no disk, and is lost.
+                let far = diagram.disk(diagram.to(half));
                 if far.as_ref().is_none_or(|far| !self.cutting(far).is_empty()) {
                     if let Some(crossing) = self.on(diagram, half, far) {
                         return Ok(crossing);
@@ -147,13 +144,7 @@ impl<'a> Merged<'a> {
     /// Where the merge curve crosses an arc whose far end is lost.
     fn on(&self, diagram: &Diagram, half: u32, far: Option<Disk>) -> Option<Crossing> {
         let (left, right) = (diagram.half(half).cell, diagram.beyond(half));
-        let start = match diagram.half(half).from {
-            APEX => None,
-            vertex => {
-                let vertex = diagram.vertices.get(vertex as usize)?;
-                Some(Disk { triple: vertex.triple, disk: vertex.disk })
-            }
-        };
+        let start = diagram.disk(diagram.half(half).from);
         let mut edges = match &far {
             Some(far) => self.cutting(far),
             None => self.first_near(left, right, start.as_ref()),
@@ -214,7 +205,7 @@ impl<'a> Merged<'a> {
         let right = members.site(diagram.beyond(half));
         let at = contacts.iter().position(|&s| s == right)?;
         let site = contacts[(at + 1) % contacts.len()];
-        let left = member_of(domain, site);
+        let left = members.member(site);
         let left_cursor = self.behind(diagram, left, &start)?;
         Some(Crossing { half, start, left, left_cursor })
     }
@@ -235,7 +226,6 @@ impl<'a> Merged<'a> {
                         let (to, way) = (vertex.disk.position() - a, disk.disk.position() - a);
                         way.cross(to) >= 0.0
                     } else {
-                        let vertex = Disk { triple: vertex.triple, disk: vertex.disk };
                         members.compare_along(&vertex, disk, cell) != Ordering::Greater
                     }
                 }
@@ -246,25 +236,5 @@ impl<'a> Merged<'a> {
             half = diagram.half(half).next;
         }
         None
-    }
-}
-
-/// The number that a corner has in the finished diagram of its ring.
-pub(super) fn corner_member(domain: &Domain, edge: u32) -> Member {
-    // The chain that ends in a corner keeps it; at the start of a walk the one that starts.
-    let record = domain.edge(edge);
-    if edge == domain.walks()[record.walk as usize].first {
-        Member::start(edge)
-    } else {
-        Member::end(record.prev)
-    }
-}
-
-/// The element that a site is.
-fn member_of(domain: &Domain, site: Site) -> Member {
-    if site.is_edge() {
-        Member::side(site.index(), Flank::Left)
-    } else {
-        corner_member(domain, site.index())
     }
 }

@@ -78,7 +78,8 @@ impl Rings {
 /// The first point of a hole in lexicographic order, where its walk turns right.
 fn lowest(domain: &Domain, walk: u32) -> Option<Site> {
     let walk = domain.walks()[walk as usize];
-    let lowest = (walk.first..walk.first + walk.len)
+    let lowest = walk
+        .edges()
         .min_by(|&a, &b| domain.edge(a).start.lexicographic(domain.edge(b).start).then(a.cmp(&b)));
     lowest.map(Site::corner)
 }

@@ -574,10 +574,7 @@ impl<'a> Search<'a> {
     /// All sites of the walks that some of them lie on.
     fn on_walks_of(&self, sites: &[Site]) -> Vec<Site> {
         let walks: BTreeSet<u32> = sites.iter().map(|s| self.domain.edge(s.index()).walk).collect();
-        let edges = walks.into_iter().flat_map(|walk| {
-            let walk = &self.domain.walks()[walk as usize];
-            walk.first..walk.first + walk.len
-        });
+        let edges = walks.into_iter().flat_map(|walk| self.domain.walks()[walk as usize].edges());
         self.domain.sites_among(edges).collect()
     }
 

@@ -1,7 +1,6 @@
 use std::ops::Range;
 
-use super::contacts::follows;
-use super::contacts::{from_least, three_from_least};
+use super::contacts::{follows, from_least, three_from_least};
 use super::finish::{Mark, Traced};
 use super::gaps::{Gaps, Open};
 use super::hand::{Arrival, Hand, openings, path};
@@ -84,7 +83,7 @@ pub(super) fn polygons(domain: &Domain) -> Result<Vec<Range<usize>>, EngineError
 /// The convex corner at which a walk around a component is begun.
 pub(super) fn seed(domain: &Domain, walk: usize) -> Option<u32> {
     let walk = &domain.walks()[walk];
-    let mut corners = walk.first..walk.first + walk.len;
+    let mut corners = walk.edges();
     corners.find(|&k| domain.edge(k).corner == Corner::Convex).filter(|_| !walk.hole)
 }
 

@@ -130,8 +130,7 @@ impl<'s, 'a> Verify<'s, 'a> {
     ) -> Self {
         let triple = [gap.right, gap.right, gap.left];
         let mut verify = Self::certified(search, gap, start, triple, disk, true);
-        verify.hunting = true;
-        verify.scope.reach -= CLEAR * disk.radius;
+        verify.look_into(disk);
         verify
     }
 
@@ -167,7 +166,9 @@ impl<'s, 'a> Verify<'s, 'a> {
         }
     }
 
+    /// Looks into a disk that is only a proposal from now on.
     fn look_into(&mut self, disk: TouchingDisk) {
+        self.hunting = true;
         self.disk = disk;
         self.hunted = None;
         let start = self.anchor;
@@ -205,7 +206,6 @@ impl<'s, 'a> Verify<'s, 'a> {
         let last = if went_back { &self.passed[self.link].disk } else { &self.disk };
         if let Some(p) = search.proposal_before(gap, &self.disk, last, edge, near) {
             self.best = Some(p);
-            self.hunting = true;
             self.look_into(p.disk);
             return true;
         }
@@ -419,7 +419,7 @@ impl<'s, 'a> Verify<'s, 'a> {
         let from = |p: Point| {
             let a = p - self.certified.origin;
             let q = self.certified.centre - a;
-            (q, self.doubt(a, q))
+            (q, self.certified.doubt(a, q))
         };
         let sign = |x: f64, doubt: f64| {
             (x.abs() > doubt).then_some(if x > 0.0 { Ordering::Greater } else { Ordering::Less })
@@ -431,12 +431,6 @@ impl<'s, 'a> Verify<'s, 'a> {
             end: sign(direction.dot(to_end), doubt_at_end),
             front: sign(direction.cross(q), doubt),
         }
-    }
-
-    /// Bound on the error of a distance, or a position along an edge, from the certified centre.
-    fn doubt(&self, a: Point, q: Point) -> f64 {
-        let d = &self.certified;
-        d.bound + U * (16.0 * (q.x.abs() + q.y.abs()) + a.x.abs() + a.y.abs() + 2.0 * d.radius)
     }
 }
 
@@ -557,7 +551,7 @@ impl Look for Verify<'_, '_> {
         if site == self.triple[1] {
             return;
         }
-        let doubt = self.doubt(a, q);
+        let doubt = self.certified.doubt(a, q);
         if let Some(at_start) = self.end_at_governor(edge) {
             // The nearest point is at most the corner itself: only its wall counts.
             let b = domain.end(edge) - d.origin;

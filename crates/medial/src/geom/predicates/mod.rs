@@ -52,6 +52,7 @@ mod wide;
 pub use counts::{Counts, counts, reset_counts};
 pub use disk::ExactDisk;
 pub use ends::{First, Leaving, two_ends};
+pub(crate) use near::sign;
 pub use stages::in_disk;
 
 use crate::geom::Point;

@@ -143,7 +143,7 @@ impl From<&TouchingDisk> for Near {
 /// The sign of a value if it is larger than its error.
 ///
 /// The smallest normal number covers what underflows.
-pub(super) fn sign(value: f64, error: f64) -> Option<Ordering> {
+pub(crate) fn sign(value: f64, error: f64) -> Option<Ordering> {
     let error = error + f64::MIN_POSITIVE;
     if value > error {
         Some(Ordering::Greater)
