@@ -35,6 +35,7 @@ Examples:
   medial axis fixtures/river.geojson -o river.csv --report report.json --timings timings.json
   medial axis fixtures/shapes/plus_of_unit_squares.wkt --keypoints --z radius -o plus.geojson
   medial axis - --to wkt < fixtures/shapes/l_with_unit_arms.wkt
+  medial axis fixtures/shapes/l_with_unit_arms.wkt --side both --frame 2 -o l.svg
 
 Exit status: 0 all done; 1 no usable result; 2 wrong usage; 3 some features were left out.";
 
@@ -52,12 +53,17 @@ pub struct AxisArgs {
     /// default that of the extension, on standard output geojson
     #[arg(long, value_name = "FORMAT")]
     pub to: Option<Format>,
-    /// Who computes the axis: path_tracing
+    /// Who computes the axis: path_tracing, divide_and_conquer
     #[arg(long, value_name = "NAME", default_value = "path_tracing", value_parser = engine)]
     pub engine: Engine,
-    /// Side of the boundary: interior
-    #[arg(long, default_value = "interior", value_parser = side)]
-    pub side: Side,
+    /// Side of the boundary: exterior is the complement of all polygons of a feature, holes included;
+    /// both writes two results for each feature, the interior first
+    #[arg(long, value_name = "SIDE", default_value = "interior")]
+    pub side: Sides,
+    /// How far from the box of a feature its exterior axis is cut off, in units of the input; by
+    /// default the longer side of the box
+    #[arg(long, value_name = "F", value_parser = positive, allow_negative_numbers = true)]
+    pub frame: Option<f64>,
     /// Largest distance between a curve and the polyline drawn for it, in units of the input; by
     /// default 1e-4 of the longer side of the feature's box
     #[arg(long, value_name = "T", value_parser = positive, allow_negative_numbers = true)]
@@ -136,6 +142,27 @@ pub struct Common {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Sides {
+    /// Inside the polygons.
+    Interior,
+    /// Outside of them.
+    Exterior,
+    /// Inside, then outside.
+    Both,
+}
+
+impl Sides {
+    /// The sides in the order in which they are written.
+    pub fn all(self) -> &'static [Side] {
+        match self {
+            Self::Interior => &[Side::Interior],
+            Self::Exterior => &[Side::Exterior],
+            Self::Both => &[Side::Interior, Side::Exterior],
+        }
+    }
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Height {
     /// The radius of the maximal disk.
     Radius,
@@ -193,13 +220,6 @@ fn engine(word: &str) -> Result<Engine, String> {
     const LATER: [&str; 4] = ["delaunay_dual", "ridge_following", "brushfire", "raster_transform"];
     if LATER.contains(&word.replace('-', "_").as_str()) {
         return Err(format!("this build has no engine {word} yet; use path_tracing"));
-    }
-    word.parse().map_err(|error: medial::axis::UnknownName| error.to_string())
-}
-
-fn side(word: &str) -> Result<Side, String> {
-    if ["exterior", "both"].contains(&word) {
-        return Err("this build computes no exterior axis yet; use interior".to_owned());
     }
     word.parse().map_err(|error: medial::axis::UnknownName| error.to_string())
 }

@@ -1,3 +1,4 @@
+use medial::axis::Side;
 use medial::check::{Counts, Identity, Relation, defects};
 use medial::domain::Domain;
 use medial::geom::Point;
@@ -15,6 +16,9 @@ pub struct Judged {
     /// Number of the feature in the input.
     pub feature: usize,
     id: Option<Json>,
+    /// The side of the axis, if there is one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    side: Option<&'static str>,
     /// Everything that is wrong.
     pub defects: Vec<Fault>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -43,6 +47,7 @@ struct Counted {
     ends: usize,
     transitions: usize,
     junctions: usize,
+    clipped: usize,
     paths: usize,
     leaves: usize,
     axis_components: usize,
@@ -60,14 +65,20 @@ struct Balance {
 }
 
 impl Judged {
-    /// The verdict on the axis of a feature, which must have exactly one document.
-    pub fn new(feature: &Feature, domain: &Domain, documents: &[Document]) -> Self {
-        let judged = Self::empty(feature.index, feature.id.clone());
+    /// The verdicts on the axes of a feature, which must have exactly one document, or one for each
+    /// side.
+    pub fn all(feature: &Feature, domain: &Domain, documents: &[Document]) -> Vec<Self> {
+        let judged = || Self::empty(feature.index, feature.id.clone());
         match documents {
-            [Ok(document)] => judged.verdict(domain, document),
-            [Err(why)] => judged.fault(why),
-            [] => judged.fault("the document has no axis of this feature"),
-            [_, _, ..] => judged.fault("the document has several axes of this feature"),
+            [Ok(document)] => vec![judged().verdict(domain, document)],
+            [Err(why)] => vec![judged().fault(why)],
+            [] => vec![judged().fault("the document has no axis of this feature")],
+            [Ok(first), Ok(second)] if first.axis.side != second.axis.side => {
+                [first, second].map(|document| judged().verdict(domain, document)).into()
+            }
+            [_, _, ..] => {
+                vec![judged().fault("the document has several axes of one side of this feature")]
+            }
         }
     }
 
@@ -80,6 +91,7 @@ impl Judged {
         Self {
             feature,
             id,
+            side: None,
             defects: Vec::new(),
             counts: None,
             identities: Vec::new(),
@@ -94,6 +106,7 @@ impl Judged {
 
     fn verdict(mut self, domain: &Domain, document: &AxisDocument) -> Self {
         let verdict = defects(domain, &document.axis);
+        self.side = Some(document.axis.side.name());
         self.defects.extend(verdict.defects.iter().map(|defect| Fault {
             defect: defect.to_string(),
             at: defect.at().map(|Point { x, y }| [x, y]),
@@ -117,6 +130,10 @@ impl Judged {
         if let Some(id) = &self.id {
             let _ = write!(out, " (id {id})");
         }
+        // Of an axis inside nothing need be said.
+        if let Some(side) = self.side.filter(|side| *side != Side::Interior.name()) {
+            let _ = write!(out, ", {side}");
+        }
         let _ = match self.defects.len() {
             0 => writeln!(out, ": no defect"),
             1 => writeln!(out, ": 1 defect"),
@@ -136,6 +153,9 @@ impl Judged {
                 "  axis: {} sites, {} ends, {} transitions, {} junctions, {} paths, {} cycles",
                 c.sites, c.ends, c.transitions, c.junctions, c.paths, c.cycles,
             );
+            if c.clipped > 0 {
+                let _ = writeln!(out, "  paths to infinity: {}", c.clipped);
+            }
         }
         for Balance { name, relation, expected, found, holds } in &self.identities {
             let sign = if *holds { "holds" } else { "broken" };
@@ -160,6 +180,7 @@ fn counted(counts: Counts) -> Counted {
         ends,
         transitions,
         junctions,
+        clipped,
         paths,
         leaves,
         axis_components,
@@ -177,6 +198,7 @@ fn counted(counts: Counts) -> Counted {
         ends,
         transitions,
         junctions,
+        clipped,
         paths,
         leaves,
         axis_components,

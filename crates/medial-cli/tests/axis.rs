@@ -178,7 +178,9 @@ fn without_a_usable_feature_an_older_file_stays_as_it_was() {
 fn wrong_usage_is_told_in_one_line() {
     for (args, said) in [
         (vec!["axis"], "<INPUT>"),
-        (vec!["axis", "a.wkt", "--side", "exterior"], "no exterior axis yet"),
+        (vec!["axis", "a.wkt", "--side", "outside"], "interior, exterior, both"),
+        (vec!["axis", "a.wkt", "--frame", "2"], "--side exterior"),
+        (vec!["axis", "a.wkt", "--side", "both", "--frame", "0"], "a positive number"),
         (vec!["axis", "a.wkt", "--engine", "brushfire"], "no engine brushfire yet"),
         (vec!["axis", "a.wkt", "--tolerance", "-1"], "positive number"),
         (vec!["axis", "a.wkt", "--tolerance", "nan"], "positive number"),
@@ -333,4 +335,66 @@ fn progress_is_told_in_lines_where_there_is_no_terminal() {
     assert_eq!(run.errors.lines().last(), Some("progress: 7 of 7 features"));
     let silent = medial(&["axis", &path("river.geojson")]);
     assert_eq!(silent.errors, "");
+}
+
+const NOTCH: &str = "POLYGON ((0 0, 2 0, 2 1, 1 1, 1 2, 0 2, 0 0))";
+
+#[test]
+fn both_sides_come_one_after_the_other() {
+    let run = medial_with(&["axis", "-", "--side", "both", "--to", "json"], NOTCH);
+    assert_eq!((run.status, run.errors.as_str()), (Some(0), ""));
+    let documents: Vec<Value> =
+        run.text().lines().map(|line| serde_json::from_str(line).unwrap()).collect();
+    let sides: Vec<_> = documents.iter().map(|d| (&d["side"], &d["feature"])).collect();
+    assert_eq!(sides, [(&json!("interior"), &json!(0)), (&json!("exterior"), &json!(0))]);
+    // In the notch: its bottom, where its edges end, and where the frame cuts the path.
+    let kinds: Vec<_> =
+        documents[1]["keypoints"].as_array().unwrap().iter().map(|k| &k["kind"]).collect();
+    assert_eq!(kinds, ["end", "transition", "clipped"]);
+    let folder = tempfile::tempdir().unwrap();
+    let shape = folder.path().join("notch.wkt");
+    std::fs::write(&shape, NOTCH).unwrap();
+    let judged = medial_with(&["check", shape.to_str().unwrap(), "-"], run.text());
+    assert_eq!((judged.status, judged.errors.as_str()), (Some(0), ""));
+    assert!(judged.text().contains("feature 0, exterior: no defect"), "{}", judged.text());
+}
+
+#[test]
+fn the_side_is_a_property_where_it_is_not_the_interior() {
+    let sides = |side: &str| {
+        let run = medial_with(&["axis", "-", "--side", side], NOTCH);
+        let whole = run.json();
+        let features = whole["features"].as_array().unwrap();
+        let mut sides: Vec<_> = features.iter().map(|f| f["properties"]["side"].clone()).collect();
+        sides.dedup();
+        sides
+    };
+    assert_eq!(sides("interior"), [Value::Null]);
+    assert_eq!(sides("exterior"), [json!("exterior")]);
+    assert_eq!(sides("both"), [json!("interior"), json!("exterior")]);
+    let run = medial_with(&["axis", "-", "--side", "exterior", "--to", "csv"], NOTCH);
+    assert!(
+        run.text()
+            .starts_with("WKT,feature,id,path,from,to,x_start,y_start,x_end,y_end,engine,side,")
+    );
+}
+
+#[test]
+fn the_frame_is_as_far_away_as_it_is_said_to_be() {
+    let run = medial_with(
+        &["axis", "-", "--side", "exterior", "--frame", "0.5", "--to", "wkt", "--keypoints"],
+        NOTCH,
+    );
+    assert!(run.text().contains("MULTIPOINT ((1 1), (2 2), (2.5 2.5))"), "{}", run.text());
+    let run = medial_with(&["axis", "-", "--side", "exterior", "--frame", "1e80"], NOTCH);
+    assert_eq!(run.status, Some(1));
+    assert!(run.errors.contains("a frame 1e80 away"), "{}", run.errors);
+}
+
+#[test]
+fn a_convex_polygon_has_no_paths_outside() {
+    let run = medial_with(&["axis", "-", "--side", "exterior", "--to", "wkt"], RECTANGLE);
+    assert_eq!((run.status, run.text()), (Some(0), "MULTILINESTRING EMPTY\n"));
+    let run = medial_with(&["axis", "-", "--side", "exterior", "--to", "svg"], RECTANGLE);
+    assert_eq!(run.status, Some(0));
 }

@@ -75,7 +75,7 @@ fn a_repeated_axis_is_a_defect() {
     let shape = path("shapes/l_with_unit_arms.wkt");
     let run = medial_with(&["check", &shape, "-"], &text.repeat(2));
     assert_eq!(run.status, Some(4));
-    assert!(run.text().contains("several axes of this feature"));
+    assert!(run.text().contains("several axes of one side of this feature"));
 }
 
 #[test]

@@ -13,9 +13,10 @@ const PLACE: [&str; 10] =
 
 /// The row of column names.
 #[must_use]
-pub fn header() -> String {
+pub fn header(drawing: Drawing) -> String {
     let mut table = Table::new();
-    for name in PLACE.into_iter().chain(["engine"]).chain(PathRecord::COLUMNS) {
+    let side = drawing.side.then_some("side");
+    for name in PLACE.into_iter().chain(["engine"]).chain(side).chain(PathRecord::COLUMNS) {
         table.field(|out| out.push_str(name));
     }
     table.end_row();
@@ -41,6 +42,9 @@ pub fn rows(source: &Feature, axis: &MedialAxis, drawing: Drawing) -> String {
         let (from, to) = (curve.from(), curve.to());
         [from.x, from.y, to.x, to.y].into_iter().for_each(|value| table.number(value));
         table.field(|out| out.push_str(axis.engine.name()));
+        if drawing.side {
+            table.field(|out| out.push_str(axis.side.name()));
+        }
         table.field(|out| out.push_str(curve.kind().name()));
         table.number(curve.length());
         table.number(curve.radius_min());
@@ -104,7 +108,8 @@ mod tests {
     fn rows_have_as_many_fields_as_the_header() {
         let id = serde_json::value::RawValue::from_string("\"a, \\\"b\\\"\"".to_owned()).ok();
         let source = Feature { index: 7, id, ..Feature::default() };
-        let text = header() + &rows(&source, &samples::rectangle(), Drawing::default());
+        let text =
+            header(Drawing::default()) + &rows(&source, &samples::rectangle(), Drawing::default());
         let mut reader = ::csv::Reader::from_reader(text.as_bytes());
         let names = reader.headers().unwrap().clone();
         let records: Vec<_> = reader.records().map(Result::unwrap).collect();

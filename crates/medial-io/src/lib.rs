@@ -44,7 +44,7 @@ pub mod wkt;
 pub use error::{Error, FeatureError};
 pub use feature::{Feature, Json, Layer, Note, Part, Polygons};
 pub use format::{Content, Format, UnknownFormat};
-pub use path::{Drawing, default_tolerance};
+pub use path::{Drawing, default_tolerance, domain_tolerance};
 pub use text::text;
 
 /// Reads the features of the bytes of a format that holds polygons.

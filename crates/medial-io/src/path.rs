@@ -1,5 +1,6 @@
 use medial::axis::{Curve, CurveKind, Keypoint, MedialAxis, Path};
-use medial::geom::Point;
+use medial::domain::Domain;
+use medial::geom::{Point, Rect};
 
 /// How axes become lines.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -10,6 +11,8 @@ pub struct Drawing {
     pub radius_as_z: bool,
     /// Whether keypoints are written as points.
     pub keypoints: bool,
+    /// Whether the side of the boundary is written (GeoJSON and CSV).
+    pub side: bool,
 }
 
 /// Tolerance of drawn curves, as a share of the longer side of the box around the feature.
@@ -19,11 +22,20 @@ const RELATIVE_TOLERANCE: f64 = 1e-4;
 
 /// The tolerance for an axis: 1e-4 of the longer side of its box.
 ///
-/// The box around the governors and the keypoints is the box of the shape.
+/// The box around the governors and the keypoints is the box of the shape, but for exterior axes; there
+/// [`domain_tolerance`] is the one to take.
 #[must_use]
 pub fn default_tolerance(axis: &MedialAxis) -> f64 {
     axis.bounds()
         .map_or(0.0, |(low, high)| RELATIVE_TOLERANCE * f64::max(high.x - low.x, high.y - low.y))
+}
+
+/// The tolerance for any axis of a domain: 1e-4 of the longer side of its box.
+#[must_use]
+pub fn domain_tolerance(domain: &Domain) -> f64 {
+    let bounds = domain.edges().iter().fold(Rect::EMPTY, |all, edge| all.with(edge.start));
+    let size = bounds.max - bounds.min;
+    RELATIVE_TOLERANCE * f64::max(size.x, size.y)
 }
 
 impl Drawing {

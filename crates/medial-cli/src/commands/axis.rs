@@ -1,13 +1,13 @@
 use super::features::{Run, layer};
 use super::sink::{Sink, encode};
-use crate::args::{AxisArgs, Height};
+use crate::args::{AxisArgs, Height, Sides};
 use crate::failure::{Failure, Status};
 use crate::input::Input;
 use crate::report::Entry;
 use crate::timings::timed;
-use medial::axis::{Engine, MedialAxis};
+use medial::axis::{MedialAxis, Side};
 use medial::domain::Domain;
-use medial::engine::{self, EngineError, divide_and_conquer_with, path_tracing_with};
+use medial::engine::{self, EngineError, exterior, interior};
 use medial_io::svg::Options;
 use medial_io::{Drawing, Format};
 use std::io::IsTerminal as _;
@@ -20,11 +20,13 @@ pub fn run(args: &AxisArgs) -> Result<Status, Failure> {
         tolerance: args.tolerance,
         radius_as_z: args.z == Some(Height::Radius),
         keypoints: args.keypoints,
+        side: args.side != Sides::Interior,
     };
     let input = timed(&mut run.stages.read, || Input::read(&args.input))?;
     let layer = timed(&mut run.stages.read, || layer(&input, &args.input, &args.common))?;
     let picture = Options { title: title(args), draw: args.draw.clone(), ..Options::default() };
-    let mut sink = Sink::create(args.output.as_deref(), format, layer.crs.clone(), picture)?;
+    let crs = layer.crs.clone();
+    let mut sink = Sink::create(args.output.as_deref(), format, drawing, crs, picture)?;
     let mut scenes = Vec::new();
     let mut write = std::time::Duration::ZERO;
     let (_, threads) = run.threads(&layer);
@@ -33,11 +35,12 @@ pub fn run(args: &AxisArgs) -> Result<Status, Failure> {
         &input,
         layer,
         |feature, domain, stages, bytes| {
-            let axis = timed(&mut stages.engine, || trace(args.engine, domain, &options))
+            // All that is asked of a feature, or nothing.
+            let axes = timed(&mut stages.engine, || trace(args, domain, &options))
                 .map_err(|error| Entry::refused(code(&error), error.to_string()))?;
-            Ok(timed(&mut stages.write, || encode(format, drawing, feature, domain, axis, bytes)))
+            Ok(timed(&mut stages.write, || encode(format, drawing, feature, domain, axes, bytes)))
         },
-        |scene| scenes.extend(scene),
+        |drawn| scenes.extend(drawn),
         |bytes| timed(&mut write, || sink.write(bytes)),
     )?;
     if status != Status::NoResult {
@@ -48,25 +51,24 @@ pub fn run(args: &AxisArgs) -> Result<Status, Failure> {
     Ok(status)
 }
 
+/// The axes of a feature, one for each side that is asked for.
 fn trace(
-    engine: Engine,
+    args: &AxisArgs,
     domain: &Domain,
     options: &engine::Options<'_>,
-) -> Result<MedialAxis, EngineError> {
-    match engine {
-        Engine::PathTracing => path_tracing_with(domain, options),
-        Engine::DivideAndConquer => divide_and_conquer_with(domain, options),
-        _ => Err(EngineError::Internal {
-            stage: "choosing the engine",
-            place: medial::geom::Point::default(),
-        }),
-    }
+) -> Result<Vec<MedialAxis>, EngineError> {
+    let of_side = |side: &Side| match side {
+        Side::Exterior => exterior(domain, args.engine, args.frame, options),
+        _ => interior(domain, args.engine, options),
+    };
+    args.side.all().iter().map(of_side).collect()
 }
 
 fn code(error: &EngineError) -> &'static str {
     match error {
         EngineError::TooLarge { .. } => "too_large",
         EngineError::Touching { .. } => "touching_boundary",
+        EngineError::Frame { .. } => "frame",
         EngineError::Cancelled => "cancelled",
         EngineError::TimeLimit => "time_limit",
         _ => "internal",
@@ -93,6 +95,9 @@ fn output_format(args: &AxisArgs) -> Result<Format, Failure> {
     }
     if !args.draw.is_empty() && !picture {
         return usage(format!("--draw is for svg and png, not for {format}"));
+    }
+    if args.frame.is_some() && args.side == Sides::Interior {
+        return usage("--frame is for --side exterior and both".to_owned());
     }
     if args.z.is_some() && !lines && format != Format::Csv {
         return usage(format!("--z is for geojson, geojsonl, wkt, wkb and csv, not for {format}"));

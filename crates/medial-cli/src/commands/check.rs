@@ -31,9 +31,11 @@ pub fn run(args: &CheckArgs) -> Result<Status, Failure> {
         layer,
         |feature, domain, stages, bytes| {
             let of_feature = documents.get(&feature.index).map_or(&[][..], Vec::as_slice);
-            let judged = timed(&mut stages.operations, || Judged::new(feature, domain, of_feature));
-            timed(&mut stages.write, || bytes.extend(told(&judged).into_bytes()));
-            Ok((judged.feature, judged.defects.len()))
+            let judged = timed(&mut stages.operations, || Judged::all(feature, domain, of_feature));
+            timed(&mut stages.write, || {
+                judged.iter().for_each(|one| bytes.extend(told(one).into_bytes()));
+            });
+            Ok((feature.index, judged.iter().map(|one| one.defects.len()).sum::<usize>()))
         },
         |(feature, defects)| {
             n_defects += defects;

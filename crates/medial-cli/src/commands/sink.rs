@@ -1,26 +1,54 @@
 use crate::failure::Failure;
 use crate::output::Output;
-use medial::axis::MedialAxis;
+use medial::axis::{MedialAxis, Side};
 use medial::domain::Domain;
 use medial_io::svg::{Options, Scene};
-use medial_io::{Drawing, Feature, Format, Json, axis_document, csv, geojson, png, svg, wkb, wkt};
+use medial_io::{
+    Drawing, Feature, Format, Json, axis_document, csv, domain_tolerance, geojson, png, svg, wkb,
+    wkt,
+};
 use std::path::Path;
 
 /// Where axes go, in one format.
 pub struct Sink {
     output: Output,
     format: Format,
+    drawing: Drawing,
     crs: Option<Json>,
     picture: Options,
     begun: bool,
 }
 
-/// Appends the axis of a feature in a format, or gives what to draw of it.
+/// Appends the axes of a feature in a format, or gives what to draw of them.
 pub fn encode(
     format: Format,
     drawing: Drawing,
     feature: &Feature,
     domain: &Domain,
+    axes: Vec<MedialAxis>,
+    bytes: &mut Vec<u8>,
+) -> Vec<Scene> {
+    let mut scenes = Vec::new();
+    for axis in axes {
+        let mut drawing = drawing;
+        if axis.side == Side::Exterior {
+            drawing.tolerance.get_or_insert_with(|| domain_tolerance(domain));
+        }
+        let mut scene = encode_one(format, drawing, feature, axis, bytes);
+        // The boundary once.
+        if let (Some(scene), true) = (&mut scene, scenes.is_empty()) {
+            scene.boundary = boundary(domain);
+        }
+        scenes.extend(scene);
+    }
+    scenes
+}
+
+/// Appends one axis, or gives it to be drawn.
+fn encode_one(
+    format: Format,
+    drawing: Drawing,
+    feature: &Feature,
     axis: MedialAxis,
     bytes: &mut Vec<u8>,
 ) -> Option<Scene> {
@@ -36,7 +64,7 @@ pub fn encode(
         Format::Wkt => wkt::write(&axis, drawing),
         Format::Csv => csv::rows(feature, &axis, drawing),
         Format::Svg | Format::Png => {
-            return Some(Scene { boundary: boundary(domain), axis });
+            return Some(Scene { boundary: Vec::new(), axis });
         }
         Format::Wkb => {
             bytes.extend(wkb::write(&axis, drawing));
@@ -60,10 +88,11 @@ impl Sink {
     pub fn create(
         path: Option<&Path>,
         format: Format,
+        drawing: Drawing,
         crs: Option<Json>,
         picture: Options,
     ) -> Result<Self, Failure> {
-        Ok(Self { output: Output::create(path)?, format, crs, picture, begun: false })
+        Ok(Self { output: Output::create(path)?, format, drawing, crs, picture, begun: false })
     }
 
     /// Writes what [`encode`] made of axes that follow one another.
@@ -84,7 +113,7 @@ impl Sink {
         }
         match self.format {
             Format::GeoJson => self.output.write(geojson::header(self.crs.as_ref()).as_bytes()),
-            Format::Csv => self.output.write(csv::header().as_bytes()),
+            Format::Csv => self.output.write(csv::header(self.drawing).as_bytes()),
             _ => Ok(()),
         }
     }

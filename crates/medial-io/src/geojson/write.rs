@@ -163,7 +163,8 @@ impl Places {
 }
 
 /// How every feature of one axis begins, behind `before`: with the properties of the source,
-/// renamed where the name is ours, then `feature`, `source_id` and `engine`. Ends with a comma.
+/// renamed where the name is ours, then `feature`, `source_id`, `engine` and, if asked for,
+/// `side`. Ends with a comma.
 fn beginning(source: &Feature, axis: &MedialAxis, drawing: Drawing, before: &[u8]) -> Vec<u8> {
     let mut out = Vec::with_capacity(COMMON_BYTES);
     out.extend_from_slice(before);
@@ -193,12 +194,18 @@ fn beginning(source: &Feature, axis: &MedialAxis, drawing: Drawing, before: &[u8
     out.extend_from_slice(b",\"engine\":\"");
     out.extend_from_slice(axis.engine.name().as_bytes());
     out.extend_from_slice(b"\",");
+    if drawing.side {
+        out.extend_from_slice(b"\"side\":\"");
+        out.extend_from_slice(axis.side.name().as_bytes());
+        out.extend_from_slice(b"\",");
+    }
     out
 }
 
 fn is_ours(name: &str, drawing: Drawing) -> bool {
     const KEYPOINT: [&str; 5] = ["keypoint", "kind", "radius", "degree", "governors"];
     ["feature", "source_id", "engine"].contains(&name)
+        || drawing.side && name == "side"
         || PathRecord::COLUMNS.contains(&name)
         || drawing.keypoints && KEYPOINT.contains(&name)
 }

@@ -1,4 +1,5 @@
 use super::{Options, Scene};
+use medial::axis::Side;
 use medial::geom::Point;
 
 /// Longer side of the drawn shapes, in pixels.
@@ -31,7 +32,13 @@ pub(super) struct Frame {
 
 impl Frame {
     pub fn around(scenes: &[Scene], options: &Options) -> Self {
-        let points = || scenes.iter().flat_map(|s| s.boundary.iter().flatten()).copied();
+        let boundary = |s: &Scene| s.boundary.iter().flatten().copied().collect::<Vec<_>>();
+        // An axis inside lies within its boundary.
+        let outside = |s: &Scene| {
+            let bounds = (s.axis.side == Side::Exterior).then(|| s.axis.bounds()).flatten();
+            bounds.into_iter().flat_map(|(low, high)| [low, high])
+        };
+        let points = || scenes.iter().flat_map(|s| boundary(s).into_iter().chain(outside(s)));
         let fold = |x: fn(Point) -> f64, pick: fn(f64, f64) -> f64| points().map(x).reduce(pick);
         let low = Point::new(
             fold(|p| p.x, f64::min).unwrap_or(0.0),

@@ -88,7 +88,7 @@ fn colored(curve: &Curve, radius_max: f64) -> Vec<(usize, Curve)> {
 pub(super) fn keypoints(canvas: &mut Canvas, scenes: &[Scene]) {
     let frame = canvas.frame;
     let room: Vec<Vec<f64>> = scenes.iter().map(|s| room(&s.axis)).collect();
-    for kind in [KeypointKind::End, KeypointKind::Transition, KeypointKind::Junction] {
+    for &kind in KeypointKind::ALL {
         let mut sizes: Vec<Data> = (0..DOT_SIZES).map(|_| Data::new(&frame)).collect();
         for (scene, room) in scenes.iter().zip(&room) {
             for (keypoint, &room) in scene.axis.keypoints().iter().zip(room) {
@@ -138,6 +138,7 @@ pub(super) fn dots(canvas: &mut Canvas, kind: KeypointKind, data: &str, unit: f6
     let circles: &[(&str, f64)] = match kind {
         KeypointKind::End => &[("#78909c", 2.0)],
         KeypointKind::Transition => &[(INK, 2.6), ("#ffffff", 1.5)],
+        KeypointKind::Clipped => &[("#78909c", 2.6), ("#ffffff", 1.5)],
         _ => &[(INK, 3.4)],
     };
     canvas.open(kind.name(), "fill=\"none\" stroke-linecap=\"round\"");

@@ -45,9 +45,16 @@ fn counts(canvas: &mut Canvas, at: Point, scenes: &[Scene], keypoints: bool) {
     let n_paths: usize = scenes.iter().map(|s| s.axis.paths().len()).sum();
     let mut x = at.x;
     if keypoints {
-        for kind in [KeypointKind::Junction, KeypointKind::Transition, KeypointKind::End] {
+        use KeypointKind::{Clipped, End, Junction, Transition};
+        for kind in [Junction, Transition, End, Clipped] {
             let all = scenes.iter().flat_map(|s| s.axis.keypoints());
-            let label = plural(all.filter(|k| k.kind == kind).count(), kind.name());
+            let n = all.filter(|k| k.kind == kind).count();
+            // Only outside are there any.
+            let label = match (kind, n) {
+                (Clipped, 0) => continue,
+                (Clipped, n) => format!("{n} clipped"),
+                _ => plural(n, kind.name()),
+            };
             let place = Point::new(x, at.y + 10.0);
             canvas.text(place, 12.0, Anchor::End, INK, &label);
             x -= canvas.text_width(&label, 12.0) + 10.0;

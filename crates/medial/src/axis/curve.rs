@@ -313,10 +313,12 @@ fn corners(p: Point, q: Point, from: Point, to: Point) -> Form {
 }
 
 fn parabola(focus: Point, edge: &Site, from: (Point, f64), to: (Point, f64)) -> Form {
-    let direction = edge.b - edge.a;
+    // On the exterior the focus lies to the right of the edge.
+    let across = accurate_cross(edge.a, edge.b, focus);
+    let direction = if across < 0.0 { edge.a - edge.b } else { edge.b - edge.a };
     let length = direction.norm();
-    let d = accurate_cross(edge.a, edge.b, focus) / length;
-    if d.is_nan() || d <= 0.0 {
+    let d = across.abs() / length;
+    if d.is_nan() || d == 0.0 {
         return Form::Linear;
     }
     let tangent = direction * (1.0 / length);

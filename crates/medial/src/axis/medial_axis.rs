@@ -21,6 +21,8 @@ pub enum Engine {
 pub enum Side {
     /// Inside the polygons.
     Interior,
+    /// Outside of all of them, holes included.
+    Exterior,
 }
 
 /// How true an axis is.
@@ -37,7 +39,7 @@ pub enum Accuracy {
 pub enum SiteKind {
     /// An open edge.
     Edge,
-    /// A reflex corner.
+    /// A corner that is reflex as seen from the side of the axis.
     Vertex,
 }
 
@@ -56,7 +58,8 @@ pub struct Site {
     pub part: u32,
     /// Start of the edge, or the corner.
     pub a: Point,
-    /// End of the edge, with the interior to the left of `a` → `b`; the corner again for a corner.
+    /// End of the edge, with the interior of the polygons to the left of `a` → `b`, whatever the side
+    /// of the axis; the corner again for a corner.
     pub b: Point,
 }
 
@@ -70,6 +73,8 @@ pub enum KeypointKind {
     Transition,
     /// Degree three or more.
     Junction,
+    /// Degree one: where a path of an exterior axis leaves the frame.
+    Clipped,
 }
 
 /// A point of the axis where paths end.

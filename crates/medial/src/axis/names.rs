@@ -56,12 +56,12 @@ names!(
     Engine, "engine",
     PathTracing => "path_tracing", DivideAndConquer => "divide_and_conquer",
 );
-names!(Side, "side", Interior => "interior");
+names!(Side, "side", Interior => "interior", Exterior => "exterior");
 names!(CurveKind, "curve", Line => "line", Parabola => "parabola");
 names!(SiteKind, "kind of site", Edge => "edge", Vertex => "vertex");
 names!(
     KeypointKind, "kind of keypoint",
-    End => "end", Transition => "transition", Junction => "junction",
+    End => "end", Transition => "transition", Junction => "junction", Clipped => "clipped",
 );
 
 #[cfg(test)]

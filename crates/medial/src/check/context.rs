@@ -2,7 +2,7 @@ use super::enclosure::norm1;
 use super::tree::Tree;
 use super::{Defect, Name};
 use crate::axis::MedialAxis;
-use crate::domain::{Corner, Domain, Site};
+use crate::domain::{Complement, Corner, Domain, Horizon, Site, Walk};
 use crate::geom::Point;
 
 /// Edges near one disk up to which all are looked at in a complete axis.
@@ -26,7 +26,12 @@ impl Crowd {
 
 /// What every check reads.
 pub(super) struct Context<'a> {
+    /// The domain on the side of the axis.
     pub(super) domain: &'a Domain,
+    /// What of it reaches infinity, if that is the outside of the polygons.
+    pub(super) horizon: Option<Horizon>,
+    /// Edges of walls, which come first and belong to nobody; their walk is the first one.
+    pub(super) n_walls: u32,
     pub(super) axis: &'a MedialAxis,
     /// The element of the domain behind each site of the axis, if it has one.
     pub(super) sites: Vec<Option<Site>>,
@@ -37,9 +42,15 @@ pub(super) struct Context<'a> {
 
 impl<'a> Context<'a> {
     /// Matches the sites of the axis with the domain by name and by coordinates, bit for bit.
-    pub(super) fn new(domain: &'a Domain, axis: &'a MedialAxis, defects: &mut Vec<Defect>) -> Self {
+    pub(super) fn new(
+        domain: &'a Domain,
+        outside: Option<&Complement>,
+        axis: &'a MedialAxis,
+        defects: &mut Vec<Defect>,
+    ) -> Self {
+        let n_walls = if outside.is_some() { Complement::n_frame_edges() } else { 0 };
         let n = domain.edges().len() as u32;
-        let mut names: Vec<(Name, Site)> = (0..n)
+        let mut names: Vec<(Name, Site)> = (n_walls..n)
             .flat_map(|edge| [Site::edge(edge), Site::corner(edge)])
             .filter(|&site| is_site(domain, site))
             .map(|site| (Name::of(domain, site), site))
@@ -64,6 +75,8 @@ impl<'a> Context<'a> {
             };
             let start = domain.edge(site.index()).start;
             let end = if site.is_edge() { domain.end(site.index()) } else { start };
+            // Sites have the interior of the polygons to their left, on any side.
+            let (start, end) = if outside.is_some() { (end, start) } else { (start, end) };
             if !same_bits(start, claimed.a) || !same_bits(end, claimed.b) {
                 defects.push(Defect::MovedSite { site: number, name, at: start });
             }
@@ -78,8 +91,27 @@ impl<'a> Context<'a> {
                 }
             }
         }
-        let size = domain.edges().iter().map(|edge| norm1(edge.start)).fold(0.0, f64::max);
-        Self { domain, axis, sites, tree: Tree::new(domain), size }
+        let inner = &domain.edges()[n_walls as usize..];
+        let size = inner.iter().map(|edge| norm1(edge.start)).fold(0.0, f64::max);
+        let walks = &domain.walks()[usize::from(n_walls > 0)..];
+        let tree = Tree::new(domain, walks);
+        let horizon = outside.map(Complement::horizon);
+        Self { domain, horizon, n_walls, axis, sites, tree, size }
+    }
+
+    /// The boundary walks, without that of the walls.
+    pub(super) fn walks(&self) -> impl ExactSizeIterator<Item = (usize, &Walk)> {
+        self.domain.walks()[usize::from(self.n_walls > 0)..].iter().enumerate()
+    }
+
+    /// Whether the cell of an edge reaches infinity: it lies on the convex hull, seen from outside.
+    pub(super) fn is_on_hull(&self, edge: u32) -> bool {
+        self.horizon.as_ref().is_some_and(|horizon| horizon.edges.binary_search(&edge).is_ok())
+    }
+
+    /// How many paths go to infinity.
+    pub(super) fn n_gaps(&self) -> usize {
+        self.horizon.as_ref().map_or(0, |horizon| horizon.gaps.len())
     }
 
     /// Position of keypoint number `keypoint`.

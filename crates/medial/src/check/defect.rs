@@ -258,6 +258,24 @@ pub enum Defect {
         /// Where that starts.
         at: Point,
     },
+    /// No path of an exterior axis goes to infinity between two neighbouring corners of the convex hull.
+    LostGap {
+        /// The corner to the right, as seen outwards.
+        right: Name,
+        /// The corner to the left.
+        left: Name,
+        /// Half-way between them.
+        at: Point,
+    },
+    /// A path of an exterior axis is cut that does not go to infinity, or once too often.
+    StrayCut {
+        /// The keypoint of kind `clipped`.
+        keypoint: u32,
+        /// Where it is.
+        at: Point,
+    },
+    /// The outside of the domain could not be made a domain of its own: a fault of ours.
+    NoOutside,
     /// The footpoints of the paths do not tile a boundary element from its start to its end.
     Untiled {
         /// The element.
@@ -364,6 +382,13 @@ impl fmt::Display for Defect {
             Self::LostWalk { walk, first, .. } => {
                 write!(f, "boundary walk {walk}, with {first}, governs nothing")
             }
+            Self::LostGap { right, left, .. } => {
+                write!(f, "no path goes to infinity between {right} and {left}")
+            }
+            Self::StrayCut { keypoint, .. } => {
+                write!(f, "keypoint {keypoint}: a path that does not go to infinity is cut here")
+            }
+            Self::NoOutside => return write!(f, "the outside of the domain cannot be judged"),
             Self::Untiled { site, starts, ends, .. } => {
                 write!(f, "{site}: the cells along it start {starts} times and end {ends} times")
             }
@@ -406,8 +431,10 @@ impl Defect {
             | Self::Reversed { at, .. }
             | Self::PathCut { at, .. }
             | Self::LostWalk { at, .. }
+            | Self::LostGap { at, .. }
+            | Self::StrayCut { at, .. }
             | Self::Untiled { at, .. } => Some(at),
-            Self::Identity(_) => None,
+            Self::Identity(_) | Self::NoOutside => None,
         }
     }
 }

@@ -6,7 +6,8 @@ use crate::domain::Corner;
 /// Counts what there is on the domain and on the axis.
 pub(super) fn counts(context: &Context) -> Counts {
     let (domain, axis) = (context.domain, context.axis);
-    let corners = |kind: Corner| domain.edges().iter().filter(|e| e.corner == kind).count();
+    let edges = &domain.edges()[context.n_walls as usize..];
+    let corners = |kind: Corner| edges.iter().filter(|e| e.corner == kind).count();
     let keypoints = |kind| axis.keypoints().iter().filter(|k| k.kind == kind).count();
     let n = axis.keypoints().len();
     let mut degrees = vec![0u32; n];
@@ -16,19 +17,25 @@ pub(super) fn counts(context: &Context) -> Counts {
         degrees[path.to as usize] += 1;
         groups.join(path.from, path.to);
     }
+    // All paths that are cut meet at infinity.
+    let cut = (0..n as u32).filter(|&k| axis.keypoints().at(k).kind == KeypointKind::Clipped);
+    let cut: Vec<u32> = if context.horizon.is_some() { cut.collect() } else { Vec::new() };
+    cut.windows(2).for_each(|pair| groups.join(pair[0], pair[1]));
+    let n = n - cut.len().saturating_sub(1);
     let axis_components = groups.count();
     let paths = axis.paths().len();
     Counts {
-        edges: domain.edges().len(),
+        edges: edges.len(),
         convex: corners(Corner::Convex),
         reflex: corners(Corner::Reflex),
         straight: corners(Corner::Straight),
-        walks: domain.walks().len(),
+        walks: context.walks().len(),
         components: domain.n_components(),
         sites: axis.sites().len(),
         ends: keypoints(KeypointKind::End),
         transitions: keypoints(KeypointKind::Transition),
         junctions: keypoints(KeypointKind::Junction),
+        clipped: keypoints(KeypointKind::Clipped),
         paths,
         leaves: degrees.iter().filter(|&&d| d == 1).count(),
         axis_components,
@@ -42,6 +49,9 @@ pub(super) fn counts(context: &Context) -> Counts {
 /// With n edges, m reflex corners, W walks, C components and k governors at a keypoint: the sum of
 /// k - 2 over inner keypoints is n + m + 2W - 4C; a straight joint, whose two edges are one contact,
 /// adds an edge and one to the sum at one keypoint, and nothing else.
+///
+/// Outside, infinity counts as one more walk. The h paths that go there end in no keypoint, which
+/// leaves h less of the sum, and so do the j joints at edges on the hull, whose normals go there too.
 pub(super) fn identities(context: &Context, counts: &Counts) -> Vec<Identity> {
     let equal = |name, expected: i64, found: i64| Identity {
         name,
@@ -50,22 +60,29 @@ pub(super) fn identities(context: &Context, counts: &Counts) -> Vec<Identity> {
         relation: Relation::Equal,
     };
     let (w, c) = (counts.walks as i64, counts.components as i64);
+    let (outside, h) = (i64::from(context.horizon.is_some()), context.n_gaps() as i64);
+    // What is convex has no axis outside.
+    let without = i64::from(outside == 1 && h == 0);
     let topology = [
         equal("cycles", w - c, counts.cycles as i64),
-        equal("components of the axis", c, counts.axis_components as i64),
+        equal("components of the axis", c - without, counts.axis_components as i64),
     ];
+    let w = w + outside;
     if context.axis.accuracy != Accuracy::Exact {
         return topology.into();
     }
     let axis = context.axis;
     let (n, m) = (counts.edges as i64, counts.reflex as i64);
     let (paths, keypoints) = (counts.paths as i64, axis.keypoints().len() as i64);
-    let inner = |k: &u32| axis.keypoints().at(*k).kind != KeypointKind::End;
+    let is_last = |kind| matches!(kind, KeypointKind::End | KeypointKind::Clipped);
+    let inner = |k: &u32| !is_last(axis.keypoints().at(*k).kind);
     let governors: i64 =
         (0..keypoints as u32).filter(inner).map(|k| axis.governors(k).len() as i64 - 2).sum();
-    let points = keypoints - counts.ends as i64;
+    let last = (counts.ends + counts.clipped) as i64;
+    let points = keypoints - last;
     let leaves = n - m - counts.straight as i64;
-    let spare = n + m + 2 * w - 4 * c;
+    let far = h + far_joints(context);
+    let spare = n + m + 2 * w - 4 * c - far;
     // Normals at the two ends of the zone of a corner, and one between the edges of a joint.
     let voronoi = paths + 2 * m + counts.straight as i64;
     let at_most = |name, expected: i64, found: i64| Identity {
@@ -74,18 +91,27 @@ pub(super) fn identities(context: &Context, counts: &Counts) -> Vec<Identity> {
     };
     let mut all: Vec<Identity> = topology.into();
     all.extend([
-        equal("leaves", leaves, counts.leaves as i64),
+        equal("leaves", leaves + h, counts.leaves as i64),
         equal("sum of (governors - 2) over inner keypoints", spare, governors),
         equal(
             "sum of (degree - 2) over inner keypoints",
-            leaves + 2 * (w - 2 * c),
-            2 * paths - counts.ends as i64 - 2 * points,
+            leaves + 2 * (w - 2 * c) - h,
+            2 * paths - last - 2 * points,
         ),
-        equal("paths less keypoints", w - 2 * c, paths - keypoints),
+        equal("paths less keypoints", w - 2 * c - h, paths - keypoints),
         at_most("inner keypoints", spare, points),
-        at_most("Voronoi edges", 2 * (n + m) + 3 * w - 6 * c, voronoi),
+        at_most("Voronoi edges", 2 * (n + m) + 3 * w - 6 * c - far, voronoi),
     ]);
     all
+}
+
+/// Joints of sites whose common normal goes to infinity, at the ends of edges on the hull.
+fn far_joints(context: &Context) -> i64 {
+    let domain = context.domain;
+    let edges = context.horizon.iter().flat_map(|horizon| &horizon.edges);
+    let at_corner = |corner: u32| domain.edge(corner).corner == Corner::Reflex;
+    // A joint of two straight pieces is one of both of them.
+    edges.map(|&edge| 1 + i64::from(at_corner(domain.edge(edge).next))).sum()
 }
 
 /// Disjoint sets of keypoints.

@@ -4,7 +4,7 @@ use super::Defect;
 use super::context::{Context, one_contact};
 use super::enclosure::Enclosure;
 use super::maximal_disk::MaximalDisk;
-use crate::axis::{Keypoint, KeypointKind};
+use crate::axis::{Keypoint, KeypointKind, Side};
 use crate::domain::{Corner, Site};
 use crate::geom::Point;
 
@@ -64,7 +64,8 @@ pub(super) fn check(context: &Context, defects: &mut Vec<Defect>) -> Keypoints {
         }
         let runs = one.runs(&sites);
         if runs.len() < 2 || sites.len() < 3 {
-            if !context.axis.complete && one.degree < 2 && runs.len() == 2 {
+            let is_cut = one.is_clipped() || !context.axis.complete;
+            if is_cut && one.degree < 2 && runs.len() == 2 {
                 found.readable[k] = true;
                 one.leave(&sites, &runs, &mut found);
                 one.check_tip(&sites);
@@ -109,8 +110,14 @@ pub(super) struct One<'a, 'b> {
 }
 
 impl One<'_, '_> {
+    /// Whether a path of an exterior axis is cut here.
+    fn is_clipped(&self) -> bool {
+        self.keypoint.kind == KeypointKind::Clipped && self.context.axis.side == Side::Exterior
+    }
+
     fn check_kind(&mut self) {
         let kind = match self.degree {
+            1 if self.is_clipped() => KeypointKind::Clipped,
             // Pruning and cutting leave tips and lone keypoints.
             0 | 1 if !self.context.axis.complete => self.keypoint.kind,
             1 => KeypointKind::End,
@@ -257,9 +264,11 @@ fn three_sites(sites: &[Site], runs: &[Run]) -> [Site; 3] {
     })
 }
 
-/// No two keypoints have one list.
+/// No two keypoints have one list, but for places where a path is cut.
 fn check_repeated(context: &Context, defects: &mut Vec<Defect>) {
-    let mut order: Vec<u32> = (0..context.axis.keypoints().len() as u32).collect();
+    let keypoints = context.axis.keypoints();
+    let mut order: Vec<u32> = (0..keypoints.len() as u32).collect();
+    order.retain(|&k| keypoints.at(k).kind != KeypointKind::Clipped);
     order.sort_by_key(|&k| context.axis.governors(k));
     for pair in order.windows(2) {
         let (first, second) = (pair[0], pair[1]);

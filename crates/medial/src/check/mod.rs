@@ -26,6 +26,12 @@
 //! each disk finds faults earlier and names them better; but where hundreds of edges are near one,
 //! as in smooth shapes, it stops there.
 //!
+//! An exterior axis is judged as that of the complement, without the walls that make it a domain.
+//! Where its paths are cut the cells reach infinity: the cuts must be just those between the corners
+//! of each gap of the convex hull, and edges of the hull have no footpoints. In the argument the
+//! point at infinity takes the place of a boundary walk: the surface covers the sphere there once,
+//! because the unbounded cells follow one another as the hull does.
+//!
 //! Bounds in double-double decide nearly everything, exact numbers what is left; floats alone are
 //! used only where a failure is sure in spite of rounding.
 
@@ -36,6 +42,7 @@ mod defect;
 mod direction;
 mod disks;
 mod enclosure;
+mod horizon;
 mod identities;
 mod keypoints;
 mod maximal_disk;
@@ -49,8 +56,9 @@ pub use defect::Defect;
 pub use name::Name;
 pub use verdict::{Counts, Identity, LeftOut, Relation, Verdict};
 
-use crate::axis::{Accuracy, MedialAxis};
-use crate::domain::Domain;
+use crate::axis::{Accuracy, MedialAxis, Side};
+use crate::domain::{Complement, Domain};
+use crate::geom::{Point, Rect};
 use context::Context;
 
 /// Every defect of an axis of a domain, with counts and identities.
@@ -71,8 +79,28 @@ use context::Context;
 /// ```
 #[must_use]
 pub fn defects(domain: &Domain, axis: &MedialAxis) -> Verdict {
+    match axis.side {
+        Side::Interior => judge(domain, None, axis),
+        Side::Exterior => match Complement::new(domain, &around(domain)) {
+            Ok(outside) => judge(outside.domain(), Some(&outside), axis),
+            Err(_) => Verdict { defects: vec![Defect::NoOutside], ..Verdict::default() },
+        },
+    }
+}
+
+/// A box with a domain in its inside.
+fn around(domain: &Domain) -> Rect {
+    let bounds = domain.edges().iter().fold(Rect::EMPTY, |all, edge| all.with(edge.start));
+    // Twice as far from the origin, on both sides, whatever the rounding.
+    let far = |p: Point| 2.0 * p.x.abs().max(p.y.abs());
+    let reach = far(bounds.min).max(far(bounds.max));
+    Rect { min: Point::new(-reach, -reach), max: Point::new(reach, reach) }
+}
+
+/// Every defect of an axis of a domain, which may be the outside of the one of the input.
+fn judge(domain: &Domain, outside: Option<&Complement>, axis: &MedialAxis) -> Verdict {
     let mut defects = Vec::new();
-    let context = Context::new(domain, axis, &mut defects);
+    let context = Context::new(domain, outside, axis, &mut defects);
     let counts = identities::counts(&context);
     let mut left_out = Vec::new();
     let exact = match axis.accuracy {
@@ -82,6 +110,7 @@ pub fn defects(domain: &Domain, axis: &MedialAxis) -> Verdict {
             paths::check(&context, &found, &mut defects);
             if axis.complete {
                 boundary::check(&context, &found, &mut defects);
+                horizon::check(&context, &mut defects);
             }
             true
         }
@@ -97,8 +126,10 @@ pub fn defects(domain: &Domain, axis: &MedialAxis) -> Verdict {
     let mut all = Vec::new();
     if axis.complete {
         all = identities::identities(&context, &counts);
-        if exact {
+        if exact && outside.is_none() {
             all.push(areas::identity(&context));
+        } else if exact {
+            left_out.push(LeftOut::Area);
         }
     } else {
         left_out.push(LeftOut::Counts);

@@ -8,7 +8,7 @@ use super::enclosure::norm1;
 use super::keypoints::{Gap, Keypoints};
 use super::maximal_disk::MaximalDisk;
 use super::{Defect, Name};
-use crate::axis::Path;
+use crate::axis::{KeypointKind, Path};
 use crate::domain::Site;
 use crate::geom::Point;
 
@@ -55,6 +55,8 @@ fn check_gaps(context: &Context, found: &Keypoints, defects: &mut Vec<Defect>) {
     }
     ends.sort_unstable();
     let mut rest = ends.as_slice();
+    // Of the two gaps where a path is cut one is left.
+    let is_cut = |k: u32| context.axis.keypoints().at(k).kind == KeypointKind::Clipped;
     let stray = |defects: &mut Vec<Defect>, &(gap, path): &(Gap, u32)| {
         if found.readable[gap.keypoint as usize] {
             let at = context.position(gap.keypoint);
@@ -67,7 +69,7 @@ fn check_gaps(context: &Context, found: &Keypoints, defects: &mut Vec<Defect>) {
         let taken = rest.partition_point(|(end, _)| *end <= gap);
         let at = context.position(gap.keypoint);
         match &rest[strays..taken] {
-            [] if context.axis.complete => {
+            [] if context.axis.complete && !is_cut(gap.keypoint) => {
                 let Gap { keypoint, right, left } = gap;
                 defects.push(Defect::EmptyGap { keypoint, right, left, at });
             }

@@ -1,6 +1,6 @@
 use std::ops::ControlFlow;
 
-use crate::domain::Domain;
+use crate::domain::{Domain, Walk};
 use crate::geom::{Point, Rect, hilbert};
 
 /// Children of a node, and edges of a leaf.
@@ -37,10 +37,11 @@ struct Oriented {
 }
 
 impl Tree {
-    pub(super) fn new(domain: &Domain) -> Self {
+    /// A tree over the edges of some walks of a domain.
+    pub(super) fn new(domain: &Domain, walks: &[Walk]) -> Self {
         let mut tree = Self { nodes: Vec::new(), root: None };
-        let mut tops: Vec<(Rect, Node)> = Vec::with_capacity(domain.walks().len());
-        for walk in domain.walks() {
+        let mut tops: Vec<(Rect, Node)> = Vec::with_capacity(walks.len());
+        for walk in walks {
             tops.push(tree.add_walk(domain, walk.first, walk.len));
         }
         tree.root = tree.add_tops(tops);

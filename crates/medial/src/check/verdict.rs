@@ -40,11 +40,13 @@ pub struct Counts {
     pub transitions: usize,
     /// Keypoints of kind `junction`.
     pub junctions: usize,
+    /// Keypoints of kind `clipped`.
+    pub clipped: usize,
     /// Paths.
     pub paths: usize,
     /// Keypoints where one path ends.
     pub leaves: usize,
-    /// Connected components of the axis.
+    /// Connected components of the axis; all paths that are cut outside count as joined.
     pub axis_components: usize,
     /// Independent cycles of the axis.
     pub cycles: usize,

@@ -3,16 +3,19 @@
 //! `rings` cleans and directs each ring by itself; `apart` shows that no edges meet, as is usual;
 //! else `sweep` and `junction` find how they meet, and `assemble` links what is left into walks.
 //! `nesting` tells outer rings from holes if asked to. `outlines` turns walks into a [`Domain`].
+//! `complement` turns a domain inside out, and `horizon` tells what of it is seen from far away.
 //! What was changed is in the [`Report`], and why a feature is refused in the [`DomainError`].
 
 mod apart;
 mod area;
 mod assemble;
 mod build;
+mod complement;
 mod components;
 mod error;
 #[cfg(feature = "geo-types")]
 mod geo;
+mod horizon;
 mod junction;
 mod lines;
 mod nesting;
@@ -29,7 +32,9 @@ mod unit;
 mod walks;
 
 pub use build::Options;
+pub use complement::Complement;
 pub use error::{DomainError, NestingFault, Place};
+pub use horizon::Horizon;
 pub use origins::{CornerOrigin, Origin};
 pub use report::{Entry, Repair, Report};
 pub use walks::{Corner, Domain, Edge, Site, Walk};

@@ -133,16 +133,24 @@ impl<'a> Rings<'a> {
             hole: w.hole,
             reversed: false,
         };
-        Rings {
-            rings: domain.walks().iter().map(ring).collect(),
-            points: edges.iter().map(|e| e.start).collect(),
-            corners: edges.iter().map(|e| e.corner).collect(),
-            order: (0..domain.walks().len() as u32).collect(),
-            cleaned: Vec::new(),
-            ring: edges.iter().map(|e| e.walk).collect(),
-            lone: true,
-            polygons: &[],
-        }
+        let mut rings = Self::of_parts(
+            domain.walks().iter().map(ring).collect(),
+            edges.iter().map(|e| e.start).collect(),
+            edges.iter().map(|e| e.corner).collect(),
+        );
+        rings.number();
+        rings
+    }
+
+    /// Rings that are clean and directed already, with their vertices one after another.
+    pub(super) fn of_parts(
+        rings: Vec<Ring>,
+        points: Vec<Point>,
+        corners: Vec<Corner>,
+    ) -> Rings<'static> {
+        let order = (0..rings.len() as u32).collect();
+        let (cleaned, ring) = (Vec::new(), Vec::new());
+        Rings { rings, points, corners, order, cleaned, ring, lone: true, polygons: &[] }
     }
 
     fn push(

@@ -30,6 +30,14 @@ pub enum EngineError {
         /// One of the places.
         place: Point,
     },
+    /// The frame of an exterior axis does not lie around the polygons, or not within the numbers.
+    #[error(
+        "a frame {margin} away from the polygons cannot be computed with; give a positive margin, in units of the input"
+    )]
+    Frame {
+        /// How far the box of the polygons was to grow.
+        margin: f64,
+    },
     /// Another thread set the flag that cancels.
     #[error("cancelled")]
     Cancelled,

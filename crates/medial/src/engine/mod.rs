@@ -4,12 +4,14 @@
 mod divide_and_conquer;
 mod draft;
 mod error;
+mod exterior;
 mod options;
 mod path_tracing;
 mod watch;
 
 pub use divide_and_conquer::{divide_and_conquer, divide_and_conquer_with};
 pub use error::EngineError;
+pub use exterior::{exterior, interior};
 pub use options::Options;
 pub use path_tracing::{
     Candidate, Step, Steps, path_tracing, path_tracing_steps, path_tracing_with,

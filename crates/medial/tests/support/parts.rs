@@ -13,6 +13,7 @@ pub struct Keypoint {
 
 #[derive(Clone, Debug)]
 pub struct Parts {
+    pub side: Side,
     pub complete: bool,
     pub accuracy: Accuracy,
     pub sites: Vec<Site>,
@@ -29,6 +30,7 @@ impl Parts {
             governors: axis.governors(number).to_vec(),
         });
         Self {
+            side: axis.side,
             complete: axis.complete,
             accuracy: axis.accuracy,
             sites: axis.sites().iter().collect(),
@@ -42,7 +44,7 @@ impl Parts {
             self.keypoints.iter().map(|k| (k.position, k.radius, k.kind, k.governors.as_slice()));
         MedialAxis::from_parts(
             Engine::PathTracing,
-            Side::Interior,
+            self.side,
             self.accuracy,
             self.complete,
             self.sites.clone(),

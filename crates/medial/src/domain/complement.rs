@@ -1,0 +1,234 @@
+//! The outside of a domain within a rectangle, as a domain of its own.
+//!
+//! The walls of the rectangle come first; all other edges are those of the domain the other way
+//! round, so that what was outside lies to their left. Where boundaries touch the walks are paired
+//! again, by the sectors of the outside. Edges, and the corners between them, keep their names.
+
+use super::apart::apart;
+use super::origins::{Origins, Source};
+use super::outlines::Draft;
+use super::rings::{Ring, Rings};
+use super::status::NONE;
+use super::{Corner, CornerOrigin, Domain, DomainError, Options, Origin, Report, Site};
+use crate::geom::{Point, Rect};
+
+/// Number of edges of the frame.
+const WALLS: u32 = 4;
+
+/// What the corners and walls of the frame are named, if anybody asks.
+const NOWHERE: u32 = u32::MAX;
+
+/// The outside of a domain within a frame.
+#[derive(Clone, Debug)]
+pub struct Complement {
+    domain: Domain,
+    /// For each edge its place among all edges along the inner boundary, and that of the one before
+    /// which the corner at its start comes there; none for the walls.
+    places: Vec<[u32; 2]>,
+}
+
+impl Complement {
+    /// The part of the plane within a rectangle, which must hold the domain in its inside, that is
+    /// not covered by the polygons of the domain.
+    ///
+    /// ```
+    /// use medial::domain::{Complement, Domain, Options};
+    /// use medial::geom::{Point, Rect};
+    ///
+    /// let point = |(x, y)| Point::new(x, y);
+    /// let square = [(0., 0.), (1., 0.), (1., 1.), (0., 1.)].map(point).to_vec();
+    /// let domain = Domain::from_polygons(&[vec![square]], &Options::default())?;
+    /// let frame = Rect::EMPTY.with(Point::new(-1.0, -1.0)).with(Point::new(2.0, 2.0));
+    /// let outside = Complement::new(&domain, &frame)?;
+    /// assert_eq!((outside.domain().walks().len(), outside.domain().area()), (2, 8.0));
+    /// # Ok::<(), medial::domain::DomainError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`DomainError::Internal`] if the frame does not hold the domain.
+    pub fn new(domain: &Domain, frame: &Rect) -> Result<Self, DomainError> {
+        let mut rings = reversed(domain, frame);
+        let n_walks = rings.rings.len();
+        let draft = Draft::with_room(rings.points.len(), n_walks);
+        let options = Options::default();
+        let outside = match apart(&rings) {
+            Some(nesting) if nesting.sides_agree(&rings) => {
+                let order = (0..n_walks as u32).collect();
+                Domain::of_rings(draft, &rings, &nesting, Some(order), Report::default())?
+            }
+            _ => {
+                rings.number();
+                Domain::of_touching_rings(draft, rings, 1, &options, Report::default())?
+            }
+        };
+        Ok(Self::named(outside, domain))
+    }
+
+    /// The outside, its edges and corners named as in the domain.
+    fn named(mut outside: Domain, domain: &Domain) -> Self {
+        let pieces = Pieces::new(&outside, domain);
+        let n = outside.edges.len();
+        let nowhere = CornerOrigin { ring: NOWHERE, index: 0, part: 0 };
+        let wall = Origin { polygon: NOWHERE, ring: NOWHERE, index: 0, part: 0, corner: nowhere };
+        let (mut records, mut places) = (vec![wall; n], vec![[NONE; 2]; n]);
+        for (rank, &edge) in (0..).zip(&pieces.order) {
+            records[edge as usize] = pieces.origin(rank);
+            places[edge as usize] = [rank, pieces.after(rank)];
+        }
+        let sources = outside.walks.iter().map(|walk| Source::Pieces { first: walk.first });
+        outside.origins = Origins { sources: sources.collect(), given: Vec::new(), records };
+        Self { domain: outside, places }
+    }
+
+    /// The outside as a domain.
+    #[must_use]
+    pub fn domain(&self) -> &Domain {
+        &self.domain
+    }
+
+    /// Whether an edge, or the corner where it starts, belongs to the frame.
+    #[must_use]
+    pub fn is_frame(&self, edge: u32) -> bool {
+        self.places[edge as usize][0] == NONE
+    }
+
+    /// The number of edges of the frame, which come first.
+    #[must_use]
+    pub const fn n_frame_edges() -> u32 {
+        WALLS
+    }
+
+    /// The number of a site if edges were counted along the boundary of the inner domain, by which
+    /// sites are ordered. `None` for the frame.
+    #[must_use]
+    pub fn inner_site(&self, site: Site) -> Option<Site> {
+        let [edge, corner] = self.places[site.index() as usize];
+        let inner = if site.is_edge() { Site::edge(edge) } else { Site::corner(corner) };
+        (edge != NONE).then_some(inner)
+    }
+}
+
+/// The edges outside along the boundary of the inner domain.
+///
+/// What touches an edge from outside cuts it there only, so an inner edge may be several pieces; and
+/// what cuts it inside has done so already. Pieces are counted anew.
+struct Pieces<'a> {
+    domain: &'a Domain,
+    /// The outer edges, in the order in which the inner boundary passes them.
+    order: Vec<u32>,
+    /// The inner edge that each is a piece of.
+    inner: Vec<u32>,
+    /// Place of the first piece of each inner edge.
+    first: Vec<u32>,
+    /// For each piece how many there are of the same edge of the input before and after it, along the
+    /// inner boundary.
+    around: Vec<[u32; 2]>,
+}
+
+impl<'a> Pieces<'a> {
+    fn new(outside: &Domain, domain: &'a Domain) -> Self {
+        let mut pieces: Vec<(u32, u32)> = Vec::with_capacity(outside.edges.len());
+        for edge in WALLS..outside.edges.len() as u32 {
+            // Rings were numbered like walks, behind that of the frame.
+            let Origin { ring, index, .. } = outside.origin(edge);
+            let walk = &domain.walks[ring as usize - 1];
+            pieces.push((walk.first + walk.len - 1 - index, edge));
+        }
+        pieces.sort_unstable_by(|&(m, a), &(n, b)| {
+            // The inner boundary runs through an edge from its end to its start.
+            let along = outside.end(a).lexicographic(outside.end(b));
+            let forwards = domain.edge(m).start.lexicographic(domain.end(m)).is_lt();
+            m.cmp(&n).then(if forwards { along } else { along.reverse() })
+        });
+        let (inner, order): (Vec<u32>, Vec<u32>) = pieces.into_iter().unzip();
+        let all = 0..domain.edges.len() as u32;
+        let first = all.map(|edge| inner.partition_point(|&m| m < edge) as u32).collect();
+        let mut around = vec![[0; 2]; inner.len()];
+        let name = |m: u32| {
+            let Origin { polygon, ring, index, .. } = domain.origin(m);
+            (polygon, ring, index)
+        };
+        // Pieces of one edge of the input need not follow one another where boundaries touch.
+        let mut by_name: Vec<u32> = (0..inner.len() as u32).collect();
+        by_name.sort_by_key(|&rank| name(inner[rank as usize]));
+        for same in by_name.chunk_by(|&a, &b| name(inner[a as usize]) == name(inner[b as usize])) {
+            let mut same = same.to_vec();
+            let start = |rank: u32| outside.end(order[rank as usize]);
+            let m = inner[same[0] as usize];
+            let forwards = domain.edge(m).start.lexicographic(domain.end(m)).is_lt();
+            same.sort_by(|&a, &b| {
+                let along = start(a).lexicographic(start(b));
+                if forwards { along } else { along.reverse() }
+            });
+            let n = same.len() as u32;
+            for (before, &rank) in (0..).zip(&same) {
+                around[rank as usize] = [before, n - 1 - before];
+            }
+        }
+        Self { domain, order, inner, first, around }
+    }
+
+    /// The name of a piece, and of the corner where it arrives along the inner boundary.
+    ///
+    /// A corner is named by the edge that arrives there with the interior to its left.
+    fn origin(&self, rank: u32) -> Origin {
+        let edge = self.inner[rank as usize];
+        let (origin, end) = (self.domain.origin(edge), self.domain.edge(edge).next);
+        let end = self.domain.origin(end).corner;
+        // An edge is named by its first vertex in input direction.
+        let runs_along =
+            if end.part == 0 { end.index != origin.index } else { end.part == origin.part + 1 };
+        let [before, after] = self.around[rank as usize];
+        let (part, touch) = if runs_along { (before, before + 1) } else { (after, after) };
+        let corner = if after == 0 {
+            end
+        } else {
+            CornerOrigin { ring: origin.ring, index: origin.index, part: touch }
+        };
+        Origin { part, corner, ..origin }
+    }
+
+    /// The piece before which the corner comes where a piece arrives.
+    fn after(&self, rank: u32) -> u32 {
+        let edge = self.inner[rank as usize];
+        if self.inner.get(rank as usize + 1) == Some(&edge) {
+            rank + 1
+        } else {
+            self.first[self.domain.edge(edge).next as usize]
+        }
+    }
+}
+
+/// The frame and the walks of a domain the other way round, as rings of one polygon.
+fn reversed(domain: &Domain, frame: &Rect) -> Rings<'static> {
+    let (low, high) = (frame.min, frame.max);
+    let n = domain.edges.len() + WALLS as usize;
+    let (mut points, mut corners) = (Vec::with_capacity(n), Vec::with_capacity(n));
+    points.extend([low, Point::new(high.x, low.y), high, Point::new(low.x, high.y)]);
+    corners.extend([Corner::Convex; WALLS as usize]);
+    let ring = |index: u32, first: u32, len: u32, hole: bool| Ring {
+        polygon: 0,
+        index,
+        first,
+        len,
+        cleaned: NONE,
+        hole,
+        reversed: false,
+    };
+    let mut rings = vec![ring(0, 0, WALLS, false)];
+    for (number, walk) in (1..).zip(&domain.walks) {
+        rings.push(ring(number, points.len() as u32, walk.len, !walk.hole));
+        // The first corner stays the first.
+        let rest = walk.first + 1..walk.first + walk.len;
+        let backwards = std::iter::once(walk.first).chain(rest.rev());
+        for edge in backwards.map(|k| domain.edge(k)) {
+            points.push(edge.start);
+            corners.push(match edge.corner {
+                Corner::Convex => Corner::Reflex,
+                Corner::Reflex => Corner::Convex,
+                Corner::Straight => Corner::Straight,
+            });
+        }
+    }
+    Rings::of_parts(rings, points, corners)
+}
