@@ -141,31 +141,46 @@ impl<'a> Pieces<'a> {
             m.cmp(&n).then(if forwards { along } else { along.reverse() })
         });
         let (inner, order): (Vec<u32>, Vec<u32>) = pieces.into_iter().unzip();
-        let all = 0..domain.edges.len() as u32;
-        let first = all.map(|edge| inner.partition_point(|&m| m < edge) as u32).collect();
-        let mut around = vec![[0; 2]; inner.len()];
-        let name = |m: u32| {
-            let Origin { polygon, ring, index, .. } = domain.origin(m);
+        let mut first = Vec::with_capacity(domain.edges.len());
+        let mut rank = 0;
+        for edge in 0..domain.edges.len() as u32 {
+            first.push(rank as u32);
+            while inner.get(rank) == Some(&edge) {
+                rank += 1;
+            }
+        }
+        let around = vec![[0; 2]; inner.len()];
+        let mut pieces = Self { domain, order, inner, first, around };
+        let is_whole = |&m: &u32| domain.origin(m).part == 0;
+        if !pieces.inner.is_sorted_by(|a, b| a < b) || !pieces.inner.iter().all(is_whole) {
+            pieces.count(outside);
+        }
+        pieces
+    }
+
+    /// Counts the pieces of each edge of the input. They need not follow one another where boundaries
+    /// touch.
+    fn count(&mut self, outside: &Domain) {
+        let domain = self.domain;
+        let name = |rank: u32| {
+            let Origin { polygon, ring, index, .. } = domain.origin(self.inner[rank as usize]);
             (polygon, ring, index)
         };
-        // Pieces of one edge of the input need not follow one another where boundaries touch.
-        let mut by_name: Vec<u32> = (0..inner.len() as u32).collect();
-        by_name.sort_by_key(|&rank| name(inner[rank as usize]));
-        for same in by_name.chunk_by(|&a, &b| name(inner[a as usize]) == name(inner[b as usize])) {
-            let mut same = same.to_vec();
-            let start = |rank: u32| outside.end(order[rank as usize]);
-            let m = inner[same[0] as usize];
+        let mut by_name: Vec<_> = (0..self.inner.len() as u32).map(|k| (name(k), k)).collect();
+        by_name.sort_unstable();
+        for same in by_name.chunk_by_mut(|a, b| a.0 == b.0) {
+            let start = |rank: u32| outside.end(self.order[rank as usize]);
+            let m = self.inner[same[0].1 as usize];
             let forwards = domain.edge(m).start.lexicographic(domain.end(m)).is_lt();
-            same.sort_by(|&a, &b| {
+            same.sort_unstable_by(|&(_, a), &(_, b)| {
                 let along = start(a).lexicographic(start(b));
                 if forwards { along } else { along.reverse() }
             });
             let n = same.len() as u32;
-            for (before, &rank) in (0..).zip(&same) {
-                around[rank as usize] = [before, n - 1 - before];
+            for (before, &(_, rank)) in (0..).zip(&*same) {
+                self.around[rank as usize] = [before, n - 1 - before];
             }
         }
-        Self { domain, order, inner, first, around }
     }
 
     /// The name of a piece, and of the corner where it arrives along the inner boundary.

@@ -32,7 +32,7 @@ pub enum EngineError {
     },
     /// The frame of an exterior axis does not lie around the polygons, or not within the numbers.
     #[error(
-        "a frame {margin} away from the polygons cannot be computed with; give a positive margin, in units of the input"
+        "a frame {margin:?} away from the polygons cannot be computed with; give a positive margin, in units of the input"
     )]
     Frame {
         /// How far the box of the polygons was to grow.
