@@ -101,6 +101,14 @@ pub struct Path {
     pub right: u32,
 }
 
+impl Path {
+    /// The same path from its end to its start.
+    #[must_use]
+    pub const fn reversed(self) -> Self {
+        Self { from: self.to, to: self.from, left: self.right, right: self.left }
+    }
+}
+
 /// A medial axis: sites, keypoints and paths.
 #[derive(Clone, PartialEq)]
 pub struct MedialAxis {

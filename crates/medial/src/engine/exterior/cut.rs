@@ -56,6 +56,9 @@ impl Cut {
             if is_wall(path.left) || is_wall(path.right) {
                 continue;
             }
+            // One direction, so that rounding is that of any engine.
+            let [start, end] = [path.from, path.to].map(|k| axis.keypoints().at(k).position);
+            let path = if start.lexicographic(end).is_gt() { path.reversed() } else { path };
             let (left, right) = (path.left, path.right);
             let (from, to) = (End::Keypoint(path.from), End::Keypoint(path.to));
             let [starts, ends] = [path.from, path.to].map(|k| inside[k as usize]);
