@@ -23,9 +23,11 @@ impl Complement {
     #[must_use]
     pub fn horizon(&self) -> Horizon {
         let domain = self.domain();
-        let inner = Self::n_frame_edges()..domain.edges().len() as u32;
+        let mut corners: Vec<u32> = (Self::n_frame_edges()..domain.edges().len() as u32).collect();
+        // Most corners are well within.
+        let outline = extremes(domain, &corners);
+        corners.retain(|&c| !is_within(&outline, domain.edge(c).start));
         // Of what the corners at a place see, one sees infinity.
-        let mut corners: Vec<u32> = inner.collect();
         corners.sort_unstable_by(|&a, &b| {
             let (p, q) = (domain.edge(a).start, domain.edge(b).start);
             p.lexicographic(q).then(a.cmp(&b))
@@ -52,6 +54,41 @@ impl Complement {
         horizon.edges.sort_unstable();
         horizon
     }
+}
+
+/// The corners that lie farthest in each of eight directions, or nearly so, counterclockwise.
+fn extremes(domain: &Domain, corners: &[u32]) -> Vec<Point> {
+    const WAYS: [(f64, f64); 8] = [
+        (-1.0, -1.0),
+        (0.0, -1.0),
+        (1.0, -1.0),
+        (1.0, 0.0),
+        (1.0, 1.0),
+        (0.0, 1.0),
+        (-1.0, 1.0),
+        (-1.0, 0.0),
+    ];
+    let mut far = [(f64::NEG_INFINITY, Point::default()); WAYS.len()];
+    for place in corners.iter().map(|&c| domain.edge(c).start) {
+        for (far, (x, y)) in far.iter_mut().zip(WAYS) {
+            let reach = x * place.x + y * place.y;
+            if reach > far.0 {
+                *far = (reach, place);
+            }
+        }
+    }
+    let mut outline: Vec<Point> = far.into_iter().map(|(_, place)| place).collect();
+    outline.dedup();
+    outline
+}
+
+/// Whether a place lies to the left of each side of a closed polygon. Then the sides wind around it, so
+/// it lies in the inside of the hull of their ends, whatever these are.
+fn is_within(outline: &[Point], place: Point) -> bool {
+    (0..outline.len()).all(|k| {
+        let (a, b) = (outline[k], outline[(k + 1) % outline.len()]);
+        a == b || orient2d(a, b, place) > 0.0
+    })
 }
 
 /// The places on the convex hull of corners in lexicographic order, counterclockwise, with those on

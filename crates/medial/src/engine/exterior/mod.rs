@@ -121,11 +121,15 @@ fn assemble(
         std::mem::swap(&mut record.a, &mut record.b);
         records.push(record);
     }
-    let list = |governors: &[u32]| {
-        let mut list: Vec<u32> = governors.iter().map(|&g| new[g as usize]).collect();
+    // The lists of all keypoints, each from its smallest number on.
+    let mut lists: Vec<u32> = Vec::with_capacity(4 * cut.kept.len());
+    let mut list = |governors: &[u32]| {
+        let start = lists.len();
+        lists.extend(governors.iter().map(|&g| new[g as usize]));
+        let list = &mut lists[start..];
         let first = (0..list.len()).min_by_key(|&k| list[k]).unwrap_or(0);
         list.rotate_left(first);
-        list
+        start..start + governors.len()
     };
     let mut keypoints = Vec::with_capacity(cut.kept.len() + cut.ends.len());
     let mut number = vec![None; whole.keypoints().len()];
@@ -153,8 +157,9 @@ fn assemble(
     let mut expected = outside.horizon().gaps;
     gaps.sort_unstable();
     expected.sort_unstable();
-    let keypoints =
-        keypoints.iter().map(|(at, radius, kind, list)| (*at, *radius, *kind, &list[..]));
+    let keypoints = keypoints
+        .iter()
+        .map(|(at, radius, kind, list)| (*at, *radius, *kind, &lists[list.clone()]));
     let complete = gaps == expected;
     let (engine, accuracy) = (whole.engine, Accuracy::Exact);
     MedialAxis::from_parts(engine, Side::Exterior, accuracy, complete, records, keypoints, paths)
