@@ -151,7 +151,6 @@ fn faults(domain: &Domain) -> Vec<String> {
             faults.extend(defects.iter().map(|d| format!("judge on divide_and_conquer: {d}")));
             faults.extend(compare::differences(&axis, &other));
         }
-        Err(EngineError::Touching { .. }) => {}
         Err(why) => faults.push(format!("divide_and_conquer: {why}")),
     }
     faults
