@@ -60,6 +60,19 @@ fn many_holes_have_the_axis_of_path_tracing() {
 }
 
 #[test]
+fn rings_that_hang_on_others_have_the_axis_of_path_tracing() {
+    random_shapes(Family::Hung, Ground::Square, 20, 77, 300);
+    random_shapes(Family::Hung, Ground::Grid(12), 20, 78, 300);
+    random_shapes(Family::Hung, Ground::Grid(60), 36, 79, 60);
+}
+
+#[test]
+fn lattices_that_touch_have_the_axis_of_path_tracing() {
+    random_shapes(Family::Triangles, Ground::Grid(3), 100, 80, 60);
+    random_shapes(Family::Squares, Ground::Grid(3), 100, 81, 60);
+}
+
+#[test]
 fn a_lattice_of_square_holes_has_the_axis_of_path_tracing() {
     let square = |x: f64, y: f64, size: f64| {
         let corner = |i: f64, j: f64| Point::new(x + size * i, y + size * j);
@@ -114,6 +127,9 @@ fn holes_hang_on_holes_that_hang_on_holes() {
 fn a_hole_goes_on_straight_where_it_touches_another_one() {
     is_right(&shapes::wkt(
         "POLYGON ((0 0, 9 0, 9 9, 0 9, 0 0), (4 4, 2 4, 2 2, 4 4), (4 4, 6 2, 6 4, 4 4))",
+    ));
+    is_right(&shapes::wkt(
+        "POLYGON ((0 0, 5 0, 5 5, 0 5, 0 0), (4 3, 5 2, 4 2, 4 3), (4 3, 3 3, 3 4, 4 3))",
     ));
 }
 
