@@ -31,7 +31,6 @@ fn random_shapes(family: Family, ground: Ground, most: u64, seed: u64, count: us
                 found.extend(defects.iter().map(|defect| format!("judge: {defect}")));
                 found
             }
-            Err(EngineError::Touching { .. }) => continue,
             Err(why) => vec![why.to_string()],
         };
         tried += 1;
@@ -61,6 +60,19 @@ fn many_holes_have_the_axis_of_path_tracing() {
 }
 
 #[test]
+fn rings_that_hang_on_others_have_the_axis_of_path_tracing() {
+    random_shapes(Family::Hung, Ground::Square, 20, 77, 300);
+    random_shapes(Family::Hung, Ground::Grid(12), 20, 78, 300);
+    random_shapes(Family::Hung, Ground::Grid(60), 36, 79, 60);
+}
+
+#[test]
+fn lattices_that_touch_have_the_axis_of_path_tracing() {
+    random_shapes(Family::Triangles, Ground::Grid(3), 100, 80, 60);
+    random_shapes(Family::Squares, Ground::Grid(3), 100, 81, 60);
+}
+
+#[test]
 fn a_lattice_of_square_holes_has_the_axis_of_path_tracing() {
     let square = |x: f64, y: f64, size: f64| {
         let corner = |i: f64, j: f64| Point::new(x + size * i, y + size * j);
@@ -74,13 +86,51 @@ fn a_lattice_of_square_holes_has_the_axis_of_path_tracing() {
     assert!(compare::differences(&path_tracing(&domain).unwrap(), &axis).is_empty());
 }
 
+/// The axis has no defect and is the one of path tracing.
+fn is_right(domain: &Domain) {
+    let axis = divide_and_conquer(domain).unwrap();
+    assert_eq!(check::defects(domain, &axis).defects, []);
+    assert_eq!(compare::differences(&path_tracing(domain).unwrap(), &axis), [""; 0]);
+}
+
 #[test]
-fn rings_that_touch_are_refused_with_the_place() {
-    let domain = shapes::wkt(
+fn two_holes_that_touch_are_one_obstacle() {
+    is_right(&shapes::wkt(
         "POLYGON ((0 0, 8 0, 8 8, 0 8, 0 0), (4 4, 5 6, 3 6, 4 4), (4 4, 3 2, 5 2, 4 4))",
-    );
-    let place = Point::new(4.0, 4.0);
-    assert_eq!(divide_and_conquer(&domain).unwrap_err(), EngineError::Touching { place });
+    ));
+}
+
+#[test]
+fn holes_hang_on_an_edge_of_the_outer_ring() {
+    is_right(&shapes::wkt(
+        "POLYGON ((0 0, 9 0, 9 7, 0 7, 0 0), (3 0, 4 3, 2 3, 3 0), (6 0, 7 1, 6 2, 6 0))",
+    ));
+}
+
+#[test]
+fn three_holes_hang_on_one_corner() {
+    is_right(&shapes::wkt(
+        "POLYGON ((0 0, 9 0, 9 9, 0 9, 0 0), (0 0, 6 1, 6 2, 0 0), (0 0, 5 3, 4 4, 0 0), \
+         (0 0, 2 5, 1 7, 0 0))",
+    ));
+}
+
+#[test]
+fn holes_hang_on_holes_that_hang_on_holes() {
+    is_right(&shapes::wkt(
+        "POLYGON ((0 0, 20 0, 20 9, 0 9, 0 0), (2 4, 5 3, 5 6, 2 4), (5 3, 8 2, 8 5, 5 3), \
+         (8 5, 12 4, 11 7, 8 5), (11 7, 14 9, 13 5, 11 7))",
+    ));
+}
+
+#[test]
+fn a_hole_goes_on_straight_where_it_touches_another_one() {
+    is_right(&shapes::wkt(
+        "POLYGON ((0 0, 9 0, 9 9, 0 9, 0 0), (4 4, 2 4, 2 2, 4 4), (4 4, 6 2, 6 4, 4 4))",
+    ));
+    is_right(&shapes::wkt(
+        "POLYGON ((0 0, 5 0, 5 5, 0 5, 0 0), (4 3, 5 2, 4 2, 4 3), (4 3, 3 3, 3 4, 4 3))",
+    ));
 }
 
 #[test]

@@ -67,7 +67,6 @@ fn trace(
 fn code(error: &EngineError) -> &'static str {
     match error {
         EngineError::TooLarge { .. } => "too_large",
-        EngineError::Touching { .. } => "touching_boundary",
         EngineError::Frame { .. } => "frame",
         EngineError::Cancelled => "cancelled",
         EngineError::TimeLimit => "time_limit",

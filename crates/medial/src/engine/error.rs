@@ -21,15 +21,6 @@ pub enum EngineError {
         /// Edges of the domain.
         n_edges: usize,
     },
-    /// `divide_and_conquer` takes no boundary that touches itself yet.
-    #[error(
-        "the boundary touches itself at ({}, {}), which divide_and_conquer does not take yet; use path_tracing",
-        place.x, place.y
-    )]
-    Touching {
-        /// One of the places.
-        place: Point,
-    },
     /// The frame of an exterior axis does not lie around the polygons, or not within the numbers.
     #[error(
         "a frame {margin:?} away from the polygons cannot be computed with; give a positive margin, in units of the input"

@@ -56,6 +56,8 @@ pub enum Family {
     Tangle,
     /// A large triangle or box full of small holes.
     Holes,
+    /// The same with every hole hung on a corner of what is there.
+    Hung,
     /// Some triangles of a lattice of split squares: touches, straight joints, several parts.
     Triangles,
     /// Some squares of a lattice.
@@ -85,7 +87,7 @@ pub fn large_shape(random: &mut Random, family: Family, ground: Ground, most: u6
             }
             vec![rings]
         }
-        Family::Holes => {
+        Family::Holes | Family::Hung => {
             let (corner, size) = match ground {
                 Ground::Grid(size) => (Point::new(0.0, 0.0), size as f64),
                 Ground::Square => (Point::new(-0.2, -0.3), 1.6),
@@ -99,7 +101,15 @@ pub fn large_shape(random: &mut Random, family: Family, ground: Ground, most: u6
             let mut rings = vec![outer];
             for _ in 0..n {
                 let corners = 3 + random.below(2);
-                rings.push(hole(random, ground, corners));
+                let mut hole = hole(random, ground, corners);
+                if family == Family::Hung {
+                    let ring = &rings[random.below(rings.len() as u64) as usize];
+                    let corner = ring[random.below(ring.len() as u64) as usize];
+                    let by = corner - hole[0];
+                    hole.iter_mut().for_each(|p| *p = *p + by);
+                    hole[0] = corner;
+                }
+                rings.push(hole);
             }
             vec![rings]
         }

@@ -8,9 +8,6 @@ use super::elements::Member;
 use super::look::{Ahead, Hand};
 use super::merge::{Curve, Merge};
 
-/// Sine of an angle from which doubles tell on which side of a spoke a vertex lies.
-const CLEARLY: f64 = 1e-9;
-
 /// Up to where a cell is asked for arcs.
 #[derive(Clone, Copy)]
 enum Reach<'d> {
@@ -148,13 +145,7 @@ impl Merge<'_, '_> {
         disk: &Disk,
     ) -> Option<Ordering> {
         let order = if cell.is_corner() {
-            let a = self.members.place(cell);
-            let (way, to) = (disk.disk.position() - a, vertex.disk.position() - a);
-            let turn = way.cross(to);
-            if turn.abs() <= CLEARLY * way.norm() * to.norm() || way.dot(to) < 0.0 {
-                return None;
-            }
-            turn.total_cmp(&0.0)
+            self.members.turn(cell, disk, vertex)?
         } else {
             // Counterclockwise around the cell is against the direction of the edge.
             self.members.compare_along(disk, vertex, cell)

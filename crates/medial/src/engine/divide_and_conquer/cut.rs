@@ -191,7 +191,7 @@ impl Merge<'_, '_> {
                     if cell == own {
                         return None;
                     }
-                    if self.joints.iter().all(|j| j.dropped != cell) {
+                    if !self.joints.iter().any(|joint| joint.drops(cell)) {
                         break arc ^ 1;
                     }
                     turned = arc ^ 1;

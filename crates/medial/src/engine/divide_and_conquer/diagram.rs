@@ -96,6 +96,23 @@ impl Diagram {
         self.half(half ^ 1).cell
     }
 
+    /// Gives a cell to another member.
+    pub fn rename(&mut self, from: Member, to: Member) {
+        let mut half = self.ends[from.0 as usize][0];
+        if from == to || half == NONE {
+            return;
+        }
+        self.ends[to.0 as usize] = std::mem::replace(&mut self.ends[from.0 as usize], [NONE; 2]);
+        while half != NONE {
+            let Half { from: vertex, next, .. } = self.halves[half as usize];
+            self.halves[half as usize].cell = to;
+            if let Some(disk) = self.vertices.get_mut(vertex as usize) {
+                disk.triple = disk.triple.map(|member| if member == from { to } else { member });
+            }
+            half = next;
+        }
+    }
+
     /// A new vertex.
     pub fn vertex(&mut self, disk: Disk) -> u32 {
         self.vertices.push(disk);

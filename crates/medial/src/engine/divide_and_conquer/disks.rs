@@ -20,6 +20,7 @@ pub(super) struct Disk {
 impl Members<'_> {
     /// The disk that touches three elements counterclockwise in this order.
     pub fn disk(&self, triple: [Member; 3]) -> Option<Disk> {
+        let triple = self.without_straight(triple);
         if let Some(disk) = TouchingDisk::touching(&triple.map(|m| self.governor(m))) {
             return Some(Disk { triple, disk });
         }
@@ -146,6 +147,20 @@ impl Members<'_> {
         self.compare([a, b], (start, end), false)
     }
 
+    /// Orders the way from a corner to the centre of one disk against that to the centre of another one,
+    /// counterclockwise, by less than a quarter of a turn; `None` where doubles do not tell.
+    pub fn turn(&self, corner: Member, from: &Disk, to: &Disk) -> Option<Ordering> {
+        let place = self.place(corner);
+        let [(from, from_doubt), (to, to_doubt)] = [from, to].map(|d| self.way(&d.disk, place));
+        let (from_length, to_length) = (from.norm(), to.norm());
+        let doubt = from_length * to_doubt
+            + to_length * from_doubt
+            + from_doubt * to_doubt
+            + 8.0 * U * from_length * to_length;
+        sign(from.dot(to), doubt).filter(|towards| towards.is_gt())?;
+        sign(from.cross(to), doubt)
+    }
+
     /// Whether two disks are the same by their elements: in one cyclic order, or in any if a corner and an
     /// edge that ends in it are touched in one place.
     fn is_same(&self, a: &Disk, b: &Disk) -> bool {
@@ -159,6 +174,9 @@ impl Members<'_> {
 
     /// Whether the curve between two elements is the normal of an edge in its own end.
     pub fn is_normal(&self, a: Member, b: Member) -> bool {
+        if self.is_straight(a, b) {
+            return true;
+        }
         let (corner, side) = if a.is_corner() { (a, b) } else { (b, a) };
         let (start, end) = self.ends(side);
         corner.is_corner() && !side.is_corner() && [start, end].contains(&self.place(corner))
@@ -179,6 +197,8 @@ impl Members<'_> {
             (true, false) if r.0 == l.0 => across(l).reverse(),
             (false, true) if l.0 == r.0 => across(r),
             (false, true) if l.0 == r.1 => across(r).reverse(),
+            (false, false) if self.is_straight(right, left) && l.1 == r.0 => across(l),
+            (false, false) if self.is_straight(right, left) => across(l).reverse(),
             (false, _) => along(r),
             (true, false) => along(l).reverse(),
         }

@@ -1,5 +1,7 @@
 //! Boundary elements seen from both sides.
 
+use super::infinity::turn;
+use super::touches;
 use crate::domain::{Domain, Site};
 use crate::geom::predicates::Element;
 use crate::geom::{Governor, Point};
@@ -53,9 +55,50 @@ impl Member {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Members<'a> {
     pub domain: &'a Domain,
+    /// Whether the boundary touches itself anywhere.
+    pub touches: bool,
 }
 
-impl Members<'_> {
+impl<'a> Members<'a> {
+    pub fn new(domain: &'a Domain) -> Self {
+        Self { domain, touches: touches::any(domain) }
+    }
+
+    /// Whether one side goes straight on where another one ends, in either order.
+    #[inline]
+    pub fn is_straight(&self, a: Member, b: Member) -> bool {
+        self.touches && (self.goes_straight_on(a, b) || self.goes_straight_on(b, a))
+    }
+
+    /// Whether the first of two sides goes straight on into the second one.
+    fn goes_straight_on(&self, a: Member, b: Member) -> bool {
+        let ((start, end), (corner, last)) = (self.ends(a), self.ends(b));
+        !a.is_corner()
+            && !b.is_corner()
+            && a.flank() == b.flank()
+            && end == corner
+            && turn(start, end, last).is_eq()
+    }
+
+    /// The elements of a disk, with the corner in place of a side into which another one goes straight
+    /// on: the corner is where the disk touches both.
+    #[inline]
+    pub fn without_straight(&self, triple: [Member; 3]) -> [Member; 3] {
+        if !self.touches {
+            return triple;
+        }
+        let mut without = triple;
+        for (k, &side) in triple.iter().enumerate() {
+            if triple.iter().any(|&before| self.goes_straight_on(before, side)) {
+                without[k] = match side.flank() {
+                    Flank::Left => Member::start(side.edge()),
+                    Flank::Right => Member::end(side.edge()),
+                };
+            }
+        }
+        without
+    }
+
     /// Where a corner is.
     pub fn place(&self, corner: Member) -> Point {
         let edge = corner.edge();

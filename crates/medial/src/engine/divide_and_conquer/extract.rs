@@ -93,8 +93,9 @@ fn keypoint(
     } else {
         KeypointKind::Junction
     };
-    let own = (contacts.len() == 3).then_some(&disk);
     let triple = triple.map(|m| members.site(m));
+    let is_own = contacts.len() == 3 && triple.iter().all(|site| contacts.contains(site));
+    let own = is_own.then_some(&disk);
     let fixed = Fixed { own, sought: false, found: &disk, triple };
     let keypoint = traced.add_disk(domain, &fixed, kind, &from_least(&contacts))?;
     number[vertex as usize] = keypoint;

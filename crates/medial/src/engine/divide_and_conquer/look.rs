@@ -68,10 +68,6 @@ impl Merge<'_, '_> {
         if hand == Hand::Left { self.diagram.to(half) } else { self.diagram.half(half).from }
     }
 
-    fn joint_that_dropped(&self, member: Member) -> Option<&Joint> {
-        self.joints.iter().find(|j| j.dropped == member)
-    }
-
     pub(super) fn vertex(&self, vertex: u32) -> Disk {
         self.diagram.vertices[vertex as usize]
     }
@@ -106,9 +102,10 @@ impl Merge<'_, '_> {
                 break Ahead::Element;
             }
             let (beyond, far) = (self.diagram.beyond(half), self.far(half, hand));
-            if let Some(joint) = self.joint_that_dropped(beyond) {
-                // The first chain keeps this part of the plane; the curve may run along its rim.
-                let along = joint.own == other;
+            if self.joints.iter().any(|joint| joint.drops(beyond)) {
+                // The other chain has this part of the plane; the curve may run along its rim.
+                let mut joints = self.joints.iter().filter(|joint| joint.drops(beyond));
+                let along = joints.any(|joint| joint.is_along(cell, other));
                 match far {
                     APEX => break Ahead::Element,
                     INFINITE => {
@@ -141,7 +138,7 @@ impl Merge<'_, '_> {
             }
             match far {
                 APEX => {
-                    if self.is_dead_wall(cell, beyond) {
+                    if self.is_lost_in_a_joint(cell, beyond, hand) {
                         break Ahead::Element;
                     }
                 }
@@ -183,10 +180,11 @@ impl Merge<'_, '_> {
         ahead
     }
 
-    /// Whether the arc between two cells is the normal at a joint on its convex side, where another
-    /// edge is nearer.
-    fn is_dead_wall(&self, a: Member, b: Member) -> bool {
-        let (corner, side) = if a.is_corner() { (a, b) } else { (b, a) };
-        !side.is_corner() && self.joints.iter().any(|j| j.own == corner && j.convex == side.flank())
+    /// Whether the arc by which the list of a cell ends in a corner is lost there.
+    fn is_lost_in_a_joint(&self, cell: Member, beyond: Member, hand: Hand) -> bool {
+        let (start, end) = self.members.ends(cell);
+        let place = if hand == Hand::Left { start } else { end };
+        let is_there = |joint: &&Joint| self.members.place(joint.own) == place;
+        self.joints.iter().filter(is_there).any(|joint| joint.takes(cell, beyond))
     }
 }

@@ -12,6 +12,7 @@ use super::disks::Disk;
 use super::elements::{Flank, Member, Members};
 use super::infinity::{Gap, turn};
 use super::look::{Ahead, Hand};
+use crate::domain::Corner;
 use crate::engine::EngineError;
 use crate::engine::watch::Watch;
 
@@ -20,49 +21,96 @@ use crate::engine::watch::Watch;
 pub(super) struct Joint {
     /// The corner as the first chain has it, and as the second one does.
     pub own: Member,
-    pub dropped: Member,
+    dropped: Member,
     /// The edges of the first and the second chain there.
     first_edge: u32,
     second_edge: u32,
     /// Whether the first chain ends here, or starts.
     ends_first: bool,
-    /// The side on which the boundary is convex.
-    pub convex: Flank,
+    /// The corner between the two edges as seen from the left.
+    corner: Corner,
+    /// The sides on which the curve passes.
+    flanks: &'static [Flank],
 }
 
 impl Joint {
     /// Where one chain ends with an edge and another starts with the next one.
-    pub fn new(members: &Members<'_>, before: u32, after: u32, ends_first: bool) -> Option<Self> {
+    pub fn new(members: &Members<'_>, edges: [u32; 2], ends_first: bool) -> Self {
+        let [end, start] = [Member::end(edges[0]), Member::start(edges[1])];
+        let corners = if ends_first { [end, start] } else { [start, end] };
+        let flanks = &[Flank::Left, Flank::Right];
+        Self { flanks, ..Self::of_rings(members, edges, ends_first, corners) }
+    }
+
+    /// A sector of the interior between an edge of one ring and the next one of another ring, which it
+    /// touches there; with the corner as the first ring and as the second one has it.
+    pub fn of_rings(
+        members: &Members<'_>,
+        [before, after]: [u32; 2],
+        ends_first: bool,
+        [own, dropped]: [Member; 2],
+    ) -> Self {
         let (a, b) = members.ends(Member::side(before, Flank::Left));
         let (_, c) = members.ends(Member::side(after, Flank::Left));
-        let convex = match turn(a, b, c) {
-            Ordering::Greater => Flank::Left,
-            Ordering::Less => Flank::Right,
-            Ordering::Equal => return None,
+        let corner = match turn(a, b, c) {
+            Ordering::Greater => Corner::Convex,
+            Ordering::Less => Corner::Reflex,
+            Ordering::Equal => Corner::Straight,
         };
-        let (end, start) = (Member::end(before), Member::start(after));
-        let joint = Self {
-            own: end,
-            dropped: start,
-            first_edge: before,
-            second_edge: after,
-            ends_first,
-            convex,
-        };
-        Some(if ends_first {
-            joint
-        } else {
-            Self { own: start, dropped: end, first_edge: after, second_edge: before, ..joint }
-        })
+        let (first_edge, second_edge) = if ends_first { (before, after) } else { (after, before) };
+        let flanks = &[Flank::Left];
+        Self { own, dropped, first_edge, second_edge, ends_first, corner, flanks }
+    }
+
+    /// The corner as seen from a side.
+    fn corner(&self, flank: Flank) -> Corner {
+        match (flank, self.corner) {
+            (Flank::Left, corner) => corner,
+            (Flank::Right, Corner::Convex) => Corner::Reflex,
+            (Flank::Right, Corner::Reflex) => Corner::Convex,
+            (Flank::Right, Corner::Straight) => Corner::Straight,
+        }
+    }
+
+    /// The sides of the edges of the first and the second chain.
+    fn sides(&self, flank: Flank) -> [Member; 2] {
+        [self.first_edge, self.second_edge].map(|edge| Member::side(edge, flank))
     }
 
     /// The elements to the right and to the left where the curve leaves the corner on a side.
     fn outwards(&self, flank: Flank) -> (Member, Member) {
-        let second = Member::side(self.second_edge, flank);
-        let first =
-            if flank == self.convex { Member::side(self.first_edge, flank) } else { self.own };
+        let [side, second] = self.sides(flank);
+        let first = if self.corner(flank) == Corner::Reflex { self.own } else { side };
         // On the left side the chain that comes first along the boundary lies to the left.
         if (flank == Flank::Left) == self.ends_first { (second, first) } else { (first, second) }
+    }
+
+    /// Whether no part of the plane belongs to a corner: what the second chain has for it belongs to the
+    /// first one, and where the two edges go straight on nothing is nearest to it.
+    pub fn drops(&self, corner: Member) -> bool {
+        corner == self.dropped || (corner == self.own && self.corner == Corner::Straight)
+    }
+
+    /// Whether the curve runs along the rim of what is dropped, with a cell of the one chain to one hand
+    /// and one of the other chain to the other.
+    pub fn is_along(&self, cell: Member, other: Member) -> bool {
+        let is_normal = |&flank: &Flank| {
+            let [first, second] = self.sides(flank);
+            (cell, other) == (first, second) || (cell, other) == (second, first)
+        };
+        other == self.own || (self.corner == Corner::Straight && self.flanks.iter().any(is_normal))
+    }
+
+    /// Whether the arc between two cells is lost where it ends in the corner.
+    pub fn takes(&self, cell: Member, beyond: Member) -> bool {
+        self.flanks.iter().any(|&flank| {
+            let (sides, is_reflex) = (self.sides(flank), self.corner(flank) == Corner::Reflex);
+            if cell == self.own {
+                beyond == sides[0] && !is_reflex
+            } else {
+                sides.contains(&cell) && !(is_reflex && beyond == self.own)
+            }
+        })
     }
 }
 
@@ -82,8 +130,6 @@ pub(super) struct Crossing {
     pub start: Disk,
     /// The element on the other side where the curve goes on.
     pub left: Member,
-    /// An arc around that element's cell, behind the curve as seen from the element.
-    pub left_cursor: u32,
 }
 
 /// Where a closed curve was begun.
@@ -139,7 +185,7 @@ impl<'m, 'a> Merge<'m, 'a> {
         let joints = self.joints;
         let mut met: Vec<(usize, Flank)> = Vec::new();
         for (k, joint) in joints.iter().enumerate() {
-            for flank in [Flank::Left, Flank::Right] {
+            for &flank in joint.flanks {
                 if met.contains(&(k, flank)) {
                     continue;
                 }
@@ -209,8 +255,10 @@ impl<'m, 'a> Merge<'m, 'a> {
     /// Merges the diagram of a ring into that of others around it, given where the curve crosses an arc
     /// of the ring.
     pub fn close(mut self, crossing: Crossing) -> Result<(), EngineError> {
-        let Crossing { half, start, left, left_cursor } = crossing;
+        let Crossing { half, start, left } = crossing;
         let right = self.diagram.beyond(half);
+        // Arcs that the curve does not see are passed over.
+        let left_cursor = self.diagram.ends[left.0 as usize][0];
         let vertex = self.diagram.vertex(start);
         let right_cursor = self.split(half, vertex, Hand::Right);
         let piece = self.diagram.arc(left, right, vertex);
@@ -247,10 +295,8 @@ impl<'m, 'a> Merge<'m, 'a> {
         }
         let met = self.joints.iter().enumerate().find_map(|(k, joint)| {
             // Inwards, left and right are those of outwards exchanged.
-            let flanks = [Flank::Left, Flank::Right];
-            let flank =
-                flanks.into_iter().find(|&f| joint.outwards(f) == (curve.left, curve.right));
-            flank.map(|flank| (k, flank))
+            let is_met = |&&f: &&Flank| joint.outwards(f) == (curve.left, curve.right);
+            joint.flanks.iter().find(is_met).map(|&flank| (k, flank))
         });
         let at_element = |ahead: &Ahead| matches!(ahead, Ahead::Element);
         match met {

@@ -3,9 +3,8 @@
 //! # Contract
 //! The exact medial axis of the interior, as `path_tracing` gives it: keypoints, paths, governors and
 //! their order are those of the true axis of the coordinates as given. Any number of holes and of
-//! components. Rings that touch are refused for now ([`EngineError::Touching`]). It shares predicates,
-//! domain and axis with `path_tracing`, and the way in which a governor list is ordered, placed and
-//! written down; no search.
+//! components; rings may touch. It shares predicates, domain and axis with `path_tracing`, and the way in
+//! which a governor list is ordered, placed and written down; no search.
 //!
 //! # Method
 //! 1. An edge with its two corners is a chain; its diagram has five cells, with the normals at both ends
@@ -16,10 +15,12 @@
 //!    it the arcs of a cell are scanned counterclockwise, right of it clockwise, each from where the last
 //!    scan ended; arcs whose far end the other chain takes away are dropped for good (`look.rs`). The
 //!    nearer of the two arcs met ends the piece, is cut, and the next piece starts (`cut.rs`).
-//! 4. Rings are merged the largest first, each with a closed curve around it, which starts where a normal
-//!    of the ring, or another arc around its reflex corners, is lost to the others (`rings.rs`,
+//! 4. A walk that passes a place more than once is cut into simple rings, whose diagrams are merged in the
+//!    places where they touch, like chains in their corners (`touches.rs`).
+//! 5. Walks are merged the largest first, each with a closed curve around it, which starts where a normal
+//!    of the walk, or another arc around its reflex corners, is lost to the others (`rings.rs`,
 //!    `around.rs`).
-//! 5. The axis is what the cells of the inner sides have for arcs, without the normals of edges at their
+//! 6. The axis is what the cells of the inner sides have for arcs, without the normals of edges at their
 //!    own ends [Lee82, cor. 3] (`extract.rs`).
 //!
 //! # Departures
@@ -49,9 +50,17 @@
 //!   Along it an arc may be lost in the middle, or at both ends only; so every arc of a cell up to where
 //!   the other cell has something is asked, and what is cut off an arc stays in the lists for as long as
 //!   the curve may come back to it.
-//! - Where the curve around a ring starts beside the cell of a reflex corner, doubles choose the arc at
-//!   which the first scan of that cell begins. A wrong choice ends in an internal error or in a defect that
-//!   the judge sees, and none was met; an exact choice is to come.
+//! - Touching rings are not in the paper either. Two walks of one component share no place, and no two of
+//!   the simple rings of one walk share more than one, nor do they touch in a circle: either would cut the
+//!   interior. So the rings of a walk hang on one another like the parts of a tree, and whichever way they
+//!   are merged, two connected sets with one common corner are: the proof for chains holds. What another
+//!   component has in the same place is never merged with them, as both see only their own interior.
+//! - Around a place where rings touch a merge curve runs in the two interior sectors next to the ring that
+//!   is added, so on the left side of every edge there. What the diagrams say of right sides is not kept up
+//!   after that: a curve which separates two sets on the boundary of one component never leaves it.
+//! - Where an edge goes straight on the corner between has no cell: the curve starts as the normal of both
+//!   edges, which is an arc between their two sides. A disk that touches both does so in the corner, and is
+//!   made of one side and the corner. The cells that both chains have for the corner are passed over.
 
 mod around;
 mod cut;
@@ -63,11 +72,12 @@ mod infinity;
 mod look;
 mod merge;
 mod rings;
+mod touches;
 
 use super::watch::Watch;
 use super::{EngineError, Options};
 use crate::axis::MedialAxis;
-use crate::domain::{Corner, Domain, Walk};
+use crate::domain::Domain;
 use crate::geom::{BoundsTree, Rect};
 use diagram::Diagram;
 use elements::Members;
@@ -77,8 +87,8 @@ use rings::Merged;
 /// The exact medial axis of the interior of a domain: a second engine, which searches in another way.
 ///
 /// # Errors
-/// [`EngineError::Touching`] if the boundary touches itself; [`EngineError::Internal`] if an invariant of
-/// the engine breaks, which no input should cause.
+/// [`EngineError::Internal`] if an invariant of the engine breaks, which no input should cause;
+/// [`EngineError::TooLarge`] if the domain has too many edges.
 pub fn divide_and_conquer(domain: &Domain) -> Result<MedialAxis, EngineError> {
     divide_and_conquer_with(domain, &Options::default())
 }
@@ -95,12 +105,15 @@ pub fn divide_and_conquer_with(
     // Four elements an edge, and some arcs for each.
     let n = u32::try_from(n_edges).ok().filter(|n| *n < u32::MAX / 64);
     let n = n.ok_or(EngineError::TooLarge { n_edges })?;
-    refuse_touches(domain)?;
     let watch = Watch::new(options);
-    let members = Members { domain };
+    let members = Members::new(domain);
     let mut diagram = Diagram::of_edges(n);
     for walk in domain.walks() {
-        close_ring(members, &mut diagram, walk, &watch)?;
+        let rings = touches::simple_rings(members, walk);
+        for ring in &rings {
+            close_ring(members, &mut diagram, ring, &watch)?;
+        }
+        touches::merge(members, &mut diagram, walk, &rings, &watch)?;
     }
     if domain.walks().iter().any(|walk| walk.hole) {
         merge_rings(members, &mut diagram, &watch)?;
@@ -108,41 +121,26 @@ pub fn divide_and_conquer_with(
     extract::axis(members, &diagram, &watch)
 }
 
-/// Fails where two corners share a place.
-fn refuse_touches(domain: &Domain) -> Result<(), EngineError> {
-    let mut corners: Vec<_> = domain.edges().iter().map(|edge| edge.start).collect();
-    corners.sort_unstable_by(|a, b| a.lexicographic(*b));
-    let pair = corners.windows(2).find(|pair| pair[0] == pair[1]).map(|pair| pair[0]);
-    let straight = || domain.edges().iter().find(|e| e.corner == Corner::Straight).map(|e| e.start);
-    match pair.or_else(straight) {
-        Some(place) => Err(EngineError::Touching { place }),
-        None => Ok(()),
-    }
-}
-
-/// Merges the edges of a closed walk, chains of one length two at a time [Lee82, Fig. 8].
+/// Merges the edges of a simple ring, chains of one length two at a time [Lee82, Fig. 8].
 fn close_ring(
     members: Members<'_>,
     diagram: &mut Diagram,
-    walk: &Walk,
+    ring: &[u32],
     watch: &Watch<'_>,
 ) -> Result<(), EngineError> {
-    let end = walk.first + walk.len;
-    let joint = |before: u32, after: u32, ends_first: bool| {
-        let place = members.domain.edge(after).start;
-        let straight = EngineError::Touching { place };
-        Joint::new(&members, before, after, ends_first).ok_or(straight)
+    let joint = |before: usize, after: usize, ends_first: bool| {
+        Joint::new(&members, [ring[before], ring[after]], ends_first)
     };
     let mut size = 1;
-    while size < walk.len {
-        for first in (walk.first..end).step_by(2 * size as usize) {
+    while size < ring.len() {
+        for first in (0..ring.len()).step_by(2 * size) {
             let middle = first + size;
-            if middle >= end {
+            if middle >= ring.len() {
                 continue;
             }
-            let mut joints = vec![joint(middle - 1, middle, true)?];
-            if 2 * size >= walk.len {
-                joints.push(joint(end - 1, walk.first, false)?);
+            let mut joints = vec![joint(middle - 1, middle, true)];
+            if 2 * size >= ring.len() {
+                joints.push(joint(ring.len() - 1, 0, false));
             }
             Merge::new(members, diagram, &joints, watch).run()?;
         }
@@ -161,15 +159,18 @@ fn merge_rings(
     let tree = BoundsTree::new(0, domain.edges().len() as u32, |k| {
         Rect::EMPTY.with(domain.edge(k).start).with(domain.end(k))
     });
-    let mut order: Vec<(f64, u32)> = Vec::with_capacity(domain.walks().len());
+    let mut order: Vec<(u32, f64, u32)> = Vec::with_capacity(domain.walks().len());
     for (k, walk) in domain.walks().iter().enumerate() {
         let edges = walk.edges();
         let bounds = edges.fold(Rect::EMPTY, |all, e| all.with(domain.edge(e).start));
-        order.push((bounds.max.x - bounds.min.x, k as u32));
+        order.push((walk.component, bounds.max.x - bounds.min.x, k as u32));
     }
-    order.sort_unstable_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+    // Component by component, the outer ring of each first.
+    order.sort_unstable_by(|a, b| {
+        a.0.cmp(&b.0).then_with(|| b.1.total_cmp(&a.1)).then_with(|| a.2.cmp(&b.2))
+    });
     let mut merged = Merged::new(members, &tree);
-    for (_, k) in order {
+    for (_, _, k) in order {
         let walk = &domain.walks()[k as usize];
         if walk.hole {
             let crossing = merged.crossing(diagram, walk)?;

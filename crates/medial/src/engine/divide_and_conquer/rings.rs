@@ -1,13 +1,12 @@
 //! Where the merge curve around a ring crosses an arc of the ring's own diagram.
 
-use std::cmp::Ordering;
 use std::ops::Range;
 
-use super::diagram::{APEX, Diagram, INFINITE, NONE};
+use super::diagram::{APEX, Diagram, NONE};
 use super::disks::Disk;
 use super::elements::{Flank, Member, Members};
 use super::merge::Crossing;
-use crate::domain::{Corner, Domain, Site, Walk};
+use crate::domain::{Corner, Site, Walk};
 use crate::engine::EngineError;
 use crate::engine::draft::contacts::{Contacts, sort};
 use crate::geom::{BoundsTree, Point, Rect, TouchingDisk, Visitor};
@@ -24,14 +23,15 @@ pub(super) struct Merged<'a> {
     tree: &'a BoundsTree,
     /// Whether each walk is.
     walks: Vec<bool>,
+    /// The component of the last one: what another one has is never seen from this one.
+    component: u32,
 }
 
 /// Collects edges near a disk.
 struct Near<'n> {
     centre: Point,
     reach: f64,
-    domain: &'n Domain,
-    walks: &'n [bool],
+    merged: &'n Merged<'n>,
     edges: Vec<u32>,
 }
 
@@ -41,8 +41,8 @@ impl Visitor for Near<'_> {
     }
 
     fn item(&mut self, edge: u32) {
-        let record = self.domain.edge(edge);
-        if self.walks[record.walk as usize]
+        let record = self.merged.members.domain.edge(edge);
+        if self.merged.has(record.walk)
             && record.distance2(self.centre - record.start) <= self.reach * self.reach
         {
             self.edges.push(edge);
@@ -52,12 +52,19 @@ impl Visitor for Near<'_> {
 
 impl<'a> Merged<'a> {
     pub fn new(members: Members<'a>, tree: &'a BoundsTree) -> Self {
-        Self { members, tree, walks: vec![false; members.domain.walks().len()] }
+        Self { members, tree, walks: vec![false; members.domain.walks().len()], component: 0 }
     }
 
     /// Notes that a walk is merged.
     pub fn add(&mut self, walk: u32) {
         self.walks[walk as usize] = true;
+        self.component = self.members.domain.walks()[walk as usize].component;
+    }
+
+    /// Whether a walk is merged, and bounds the component at hand.
+    fn has(&self, walk: u32) -> bool {
+        let component = self.members.domain.walks()[walk as usize].component;
+        self.walks[walk as usize] && component == self.component
     }
 
     fn near(&self, disk: &TouchingDisk) -> Vec<u32> {
@@ -67,8 +74,7 @@ impl<'a> Merged<'a> {
         // With room for rounding: what is near is asked exactly.
         let reach =
             (disk.radius + bound) * (1.0 + 64.0 * f64::EPSILON) + 64.0 * f64::EPSILON * size;
-        let (domain, walks) = (self.members.domain, &self.walks[..]);
-        let mut near = Near { centre, reach, domain, walks, edges: Vec::new() };
+        let mut near = Near { centre, reach, merged: self, edges: Vec::new() };
         self.tree.visit(&mut near);
         near.edges
     }
@@ -206,35 +212,6 @@ impl<'a> Merged<'a> {
         let at = contacts.iter().position(|&s| s == right)?;
         let site = contacts[(at + 1) % contacts.len()];
         let left = members.member(site);
-        let left_cursor = self.behind(diagram, left, &start)?;
-        Some(Crossing { half, start, left, left_cursor })
-    }
-
-    /// The arc around a cell that lies behind a disk as seen from the element.
-    fn behind(&self, diagram: &Diagram, cell: Member, disk: &Disk) -> Option<u32> {
-        let members = &self.members;
-        let a = members.ends(cell).0;
-        let mut half = diagram.ends[cell.0 as usize][0];
-        while half != NONE {
-            let is_beyond = match diagram.to(half) {
-                APEX => true,
-                // The cell has a gap there, which nothing inside sees.
-                INFINITE => false,
-                vertex => {
-                    let vertex = diagram.vertices[vertex as usize];
-                    if cell.is_corner() {
-                        let (to, way) = (vertex.disk.position() - a, disk.disk.position() - a);
-                        way.cross(to) >= 0.0
-                    } else {
-                        members.compare_along(&vertex, disk, cell) != Ordering::Greater
-                    }
-                }
-            };
-            if is_beyond {
-                return Some(half);
-            }
-            half = diagram.half(half).next;
-        }
-        None
+        Some(Crossing { half, start, left })
     }
 }

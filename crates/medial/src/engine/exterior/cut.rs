@@ -69,11 +69,7 @@ impl Cut {
                 continue;
             }
             let governors = axis.path_governors(&path);
-            for part in [&[0.0], &crossings[..], &[1.0]].concat().windows(2) {
-                let (u, v) = (part[0], part[1]);
-                if u >= v || !frame.holds(curve.point_at(0.5 * (u + v))) {
-                    continue;
-                }
+            for (u, v) in parts_inside(frame, &curve, crossings) {
                 let mut clip = |u: f64, left: u32, right: u32| {
                     let (position, radius) = frame.on_path(&curve, &governors, u);
                     cut.ends.push(Clipped { position, radius, left, right });
@@ -87,6 +83,23 @@ impl Cut {
         }
         cut
     }
+}
+
+/// The parts of a curve inside a frame, between places where it crosses lines of it.
+fn parts_inside(frame: &Frame, curve: &Curve, crossings: Vec<f64>) -> Vec<(f64, f64)> {
+    let mut parts: Vec<(f64, f64)> = Vec::new();
+    let mut u = 0.0;
+    for v in crossings.into_iter().chain([1.0]) {
+        if frame.holds(curve.point_at(0.5 * (u + v))) {
+            match parts.last_mut() {
+                // Through a corner of the frame it crosses two lines in one place, but for rounding.
+                Some(last) if last.1 == u => last.1 = v,
+                _ => parts.push((u, v)),
+            }
+        }
+        u = v;
+    }
+    parts
 }
 
 /// The parameters at which a curve crosses the lines of a frame, in order.
