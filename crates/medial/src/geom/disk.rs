@@ -298,6 +298,12 @@ impl TouchingDisk {
             };
             return Self::on_normal(v, direction, &governors[other], f64::INFINITY).ok().flatten();
         }
+        Self::apart(governors)
+    }
+
+    /// The same for governors none of which ends at another one.
+    #[must_use]
+    pub(crate) fn apart(governors: &[Governor; 3]) -> Option<Self> {
         let [a, b, c] = corners_first(governors);
         let g = match (a, c) {
             // One kind only: the rotation is chosen by the places.

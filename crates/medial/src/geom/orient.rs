@@ -1,5 +1,7 @@
-use super::Point;
+use std::cmp::Ordering;
+
 use super::double::{two_product, two_sum};
+use super::{Point, U};
 
 /// The side of the line `a` → `b` on which `c` lies: positive to the left, 0 on it; the sign is
 /// exact.
@@ -39,6 +41,30 @@ pub fn cross_directions(a: Point, b: Point, c: Point, d: Point) -> f64 {
     if det.abs() > CROSS_ERROR * (left.abs() + right.abs()) { det } else { exact_cross(a, b, c, d) }
 }
 
+/// Orders the length of the way `a` → `b` against that of `b` → `c`; exact.
+pub(crate) fn compare_lengths(a: Point, b: Point, c: Point) -> Ordering {
+    let (first, second) = ((b - a).norm2(), (c - b).norm2());
+    // Three roundings of each square, one more of each sum, and the second order.
+    if (first - second).abs() > 8.0 * U * (first + second) {
+        return first.total_cmp(&second);
+    }
+    let mut sum = Expansion::default();
+    for ((high, low), sign) in [
+        (two_sum(b.x, -a.x), 1.0),
+        (two_sum(b.y, -a.y), 1.0),
+        (two_sum(c.x, -b.x), -1.0),
+        (two_sum(c.y, -b.y), -1.0),
+    ] {
+        sum.add_product(sign * high, high);
+        if low != 0.0 {
+            sum.add_product(2.0 * sign * high, low);
+            sum.add_product(sign * low, low);
+        }
+    }
+    // Zero has two signs.
+    sum.sign_value().partial_cmp(&0.0).unwrap_or(Ordering::Equal)
+}
+
 /// Bound on the relative error of a cross product of two rounded differences.
 ///
 /// Four differences, two products and one subtraction each add at most 2^-53 to first order:
@@ -65,10 +91,10 @@ fn exact_cross(a: Point, b: Point, c: Point, d: Point) -> f64 {
     sum.sign_value()
 }
 
-/// An exact sum of up to 16 doubles, as nonoverlapping parts of increasing size.
+/// An exact sum of up to 24 doubles, as nonoverlapping parts of increasing size.
 #[derive(Default)]
 struct Expansion {
-    parts: [f64; 16],
+    parts: [f64; 24],
     len: usize,
 }
 
@@ -118,6 +144,20 @@ mod tests {
         assert_eq!(cross_directions(p(0.0, 0.0), p(x, y), p(-x, -y), p(x, y)), 0.0);
         assert!(cross_directions(p(0.0, 0.0), p(x, y), p(-x, -y), p(x, y.next_up())) > 0.0);
         assert!(cross_directions(p(0.0, 0.0), p(x, y), p(-x, -y), p(x.next_up(), y)) < 0.0);
+    }
+
+    #[test]
+    fn lengths_that_round_to_the_same_are_told_apart() {
+        // 2^60 + 1 needs 61 bits.
+        let big = 2f64.powi(60);
+        let (a, b) = (p(-1.0, 0.0), p(big, 0.0));
+        assert_eq!(compare_lengths(a, b, p(big, big)), Ordering::Greater);
+        assert_eq!(compare_lengths(a, b, a), Ordering::Equal);
+        assert_eq!(compare_lengths(p(0.0, 0.0), p(3.0, 4.0), p(8.0, 4.0)), Ordering::Equal);
+        assert_eq!(
+            compare_lengths(p(0.0, 0.0), p(3.0, 4.0), p(8f64.next_up(), 4.0)),
+            Ordering::Less
+        );
     }
 
     #[test]

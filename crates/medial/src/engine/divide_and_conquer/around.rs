@@ -18,118 +18,168 @@ enum Reach<'d> {
     All,
 }
 
+/// What a cell was asked so far.
+struct Scan {
+    cell: Member,
+    other: Member,
+    hand: Hand,
+    /// The first arc that the curve has not passed, and whether the next one may be passed as well.
+    cursor: u32,
+    passing: bool,
+    /// The next arc to be asked, the far end of the last one, and whether the other element is known to
+    /// take that away, or to touch it where the curve starts.
+    half: u32,
+    last: u32,
+    is_lost: bool,
+    /// The first arc that the curve meets, of those asked.
+    first: Option<(Disk, Option<u32>, u32)>,
+}
+
+impl Scan {
+    fn new(curve: &Curve, hand: Hand, is_lost: bool) -> Self {
+        let (cell, other, cursor) = match hand {
+            Hand::Left => (curve.left, curve.right, curve.left_cursor),
+            Hand::Right => (curve.right, curve.left, curve.right_cursor),
+        };
+        let (passing, half, last, first) = (true, cursor, NONE, None);
+        Self { cell, other, hand, cursor, passing, half, last, is_lost, first }
+    }
+
+    fn disk(&self) -> Option<&Disk> {
+        self.first.as_ref().map(|(disk, ..)| disk)
+    }
+
+    fn ahead(self) -> Ahead {
+        self.first.map_or(Ahead::Nothing, |(disk, vertex, half)| Ahead::Arc(disk, vertex, half))
+    }
+}
+
 impl Merge<'_, '_> {
     /// What comes next where the curve is all around a ring: what either cell has ahead, and the order
     /// of the two.
     ///
     /// It may cross an arc more than once, and come to an end of one that only another part of the ring
     /// takes away. So each cell is asked for all arcs up to the place where the other one has something.
-    pub(super) fn look_around(&mut self, curve: &mut Curve) -> (Ahead, Ahead) {
-        let mut left = self.look_up_to(curve, Hand::Left, Reach::Near);
-        let mut right = self.look_up_to(curve, Hand::Right, Reach::Near);
+    pub(super) fn look_around(&self, curve: &mut Curve) -> (Ahead, Ahead) {
+        let starts_at_curve = |half: u32, hand: Hand| {
+            let near = if hand == Hand::Left {
+                self.diagram.half(half).from
+            } else {
+                self.diagram.to(half)
+            };
+            half != NONE && near == self.diagram.half(curve.piece).from
+        };
+        let scan = |cursor, hand| Scan::new(curve, hand, starts_at_curve(cursor, hand));
+        let mut left = scan(curve.left_cursor, Hand::Left);
+        let mut right = scan(curve.right_cursor, Hand::Right);
+        self.scan(curve, &mut left, Reach::Near);
+        self.scan(curve, &mut right, Reach::Near);
         loop {
             let first = match (left.disk(), right.disk()) {
                 (Some(l), Some(r)) => {
                     let order = self.members.order(l, r, curve.right, curve.left);
-                    Some(if order.is_le() { l } else { r })
+                    Some(if order.is_le() { *l } else { *r })
                 }
-                (first, None) | (None, first) => first,
+                (first, None) | (None, first) => first.copied(),
             };
-            let first = first.copied();
             let reach = || first.as_ref().map_or(Reach::All, Reach::UpTo);
-            left = self.look_up_to(curve, Hand::Left, reach());
-            right = self.look_up_to(curve, Hand::Right, reach());
-            let Some(first) = &first else { return (left, right) };
-            let is_new = |ahead: &Ahead| {
-                ahead.disk().is_some_and(|disk| {
-                    self.members.order(disk, first, curve.right, curve.left).is_lt()
-                })
-            };
-            if !is_new(&left) && !is_new(&right) {
-                return (left, right);
+            let sooner = [&mut left, &mut right].map(|scan| {
+                let found = self.scan(curve, scan, reach());
+                found
+                    && first.as_ref().zip(scan.disk()).is_some_and(|(first, disk)| {
+                        self.members.order(disk, first, curve.right, curve.left).is_lt()
+                    })
+            });
+            if !sooner.contains(&true) {
+                (curve.left_cursor, curve.right_cursor) = (left.cursor, right.cursor);
+                return (left.ahead(), right.ahead());
             }
         }
     }
 
-    /// What the cell to one hand has ahead, of the arcs within reach.
-    fn look_up_to(&mut self, curve: &mut Curve, hand: Hand, reach: Reach<'_>) -> Ahead {
-        let (cell, other) = match hand {
-            Hand::Left => (curve.left, curve.right),
-            Hand::Right => (curve.right, curve.left),
-        };
-        let mut cursor = if hand == Hand::Left { curve.left_cursor } else { curve.right_cursor };
-        let mut passing = true;
-        let mut first: Option<(Disk, Option<u32>, u32)> = None;
-        let mut half = cursor;
-        while half != NONE {
-            let far = self.far(half, hand);
-            let vertex = (far != APEX && far != INFINITE).then(|| self.vertex(far));
-            let place = |disk: Option<&Disk>| {
-                let (vertex, disk) = (vertex.as_ref()?, disk?);
-                self.place_around(cell, hand, vertex, disk)
-            };
-            passing = passing && place(curve.start.as_ref()) == Some(Ordering::Less);
-            let after = self.step(half, hand);
-            if passing {
-                // The curve has passed its far end, so that is lost.
-                (cursor, half) = (after, after);
-                continue;
-            }
-            let meets = match (&vertex, far) {
-                (Some(vertex), _) => self.members.meets(vertex, other),
-                // A ring inside another one loses all that is far away.
-                (None, INFINITE) => Ordering::Less,
-                (None, _) => Ordering::Greater,
-            };
-            let is_at_end =
-                meets.is_eq() && vertex.as_ref().is_some_and(|vertex| self.is_ahead(curve, vertex));
-            let met = if is_at_end {
-                vertex.map(|vertex| (vertex, Some(far), half))
-            } else {
-                let disk = self.members.disk([curve.right, self.diagram.beyond(half), curve.left]);
-                disk.filter(|disk| {
-                    let in_zone = |&m: &Member| self.members.in_zone_of_ring(disk, m);
-                    disk.triple.iter().all(in_zone)
-                        && self.is_ahead(curve, disk)
-                        && self.is_on(half, disk)
-                })
-                .map(|disk| (disk, None, half))
-            };
-            if let Some(met) = met {
-                let (right, left) = (curve.right, curve.left);
-                let order = |d: &Disk, e: &Disk| self.members.order(d, e, right, left);
-                if first.as_ref().is_none_or(|first| order(&met.0, &first.0).is_lt()) {
-                    first = Some(met);
-                }
-            }
-            let is_far = match reach {
-                Reach::Near => is_at_end || meets.is_gt(),
-                // What is proposed may lie on a wall that the curve has left behind.
-                Reach::UpTo(disk) => {
-                    !cell.is_corner() && place(Some(disk)) == Some(Ordering::Greater)
-                }
-                Reach::All => false,
-            };
-            if is_far {
+    /// Asks a cell for arcs within reach, from the last one asked on; whether an earlier one was found.
+    fn scan(&self, curve: &Curve, scan: &mut Scan, reach: Reach<'_>) -> bool {
+        let (right, left) = (curve.right, curve.left);
+        let is_vertex = |vertex: u32| vertex < INFINITE;
+        let mut found = false;
+        while scan.half != NONE {
+            if let Reach::UpTo(disk) = reach
+                && is_vertex(scan.last)
+                && self.is_onwards(curve, scan.hand, disk, self.vertex(scan.last))
+            {
                 break;
             }
-            half = after;
+            let half = scan.half;
+            let far = self.far(half, scan.hand);
+            let vertex = is_vertex(far).then(|| self.vertex(far));
+            scan.half = self.step(half, scan.hand);
+            scan.passing = scan.passing
+                && vertex.zip(curve.start.as_ref()).is_some_and(|(vertex, start)| {
+                    self.place_around(scan.cell, scan.hand, vertex, start) == Some(Ordering::Less)
+                });
+            scan.last = far;
+            if scan.passing {
+                // The curve has passed its far end, so that is lost.
+                scan.cursor = scan.half;
+                scan.is_lost = false;
+                continue;
+            }
+            let meets = match vertex {
+                Some(vertex) => self.members.meets(vertex, scan.other),
+                // A ring inside another one loses all that is far away.
+                None if far == INFINITE => Ordering::Less,
+                None => Ordering::Greater,
+            };
+            // Along a straight arc with an edge beside it the radius is linear, and the distance of the
+            // other element is convex: between two ends that it takes away it takes all.
+            let is_lost = std::mem::replace(&mut scan.is_lost, meets.is_lt() && vertex.is_some());
+            if is_lost && scan.is_lost && self.is_linear(half) {
+                continue;
+            }
+            let at_end = vertex.filter(|vertex| meets.is_eq() && self.is_ahead(curve, vertex));
+            let met = match at_end {
+                Some(vertex) => Some((*vertex, Some(far), half)),
+                None => self.crossing(curve, half).map(|disk| (disk, None, half)),
+            };
+            if let Some(met) = met
+                && scan
+                    .disk()
+                    .is_none_or(|first| self.members.order(&met.0, first, right, left).is_lt())
+            {
+                scan.first = Some(met);
+                found = true;
+            }
+            if matches!(reach, Reach::Near) && (at_end.is_some() || meets.is_gt()) {
+                break;
+            }
         }
-        match hand {
-            Hand::Left => curve.left_cursor = cursor,
-            Hand::Right => curve.right_cursor = cursor,
+        found
+    }
+
+    /// Whether the radius is a linear function along an arc: between two edges, or on a normal.
+    fn is_linear(&self, half: u32) -> bool {
+        let (cell, beyond) = (self.diagram.half(half).cell, self.diagram.beyond(half));
+        match (cell.is_corner(), beyond.is_corner()) {
+            (false, false) => true,
+            (true, true) => false,
+            _ => self.members.is_normal(cell, beyond),
         }
-        first.map_or(Ahead::Nothing, |(disk, vertex, half)| Ahead::Arc(disk, vertex, half))
+    }
+
+    /// The disk where the curve crosses an arc, ahead.
+    fn crossing(&self, curve: &Curve, half: u32) -> Option<Disk> {
+        let disk = self.members.disk([curve.right, self.diagram.beyond(half), curve.left])?;
+        let is_there = self.is_ahead(curve, &disk)
+            && self.is_on(half, &disk)
+            && disk.triple.iter().all(|&member| self.members.in_zone_of_ring(&disk, member));
+        is_there.then(|| self.members.sharp(disk))
     }
 
     /// Whether the centre of a disk that touches both elements of an arc lies on the arc, and not on
     /// another one of the same two.
     fn is_on(&self, half: u32, disk: &Disk) -> bool {
         let (left, right) = (self.diagram.half(half).cell, self.diagram.beyond(half));
-        let order = |vertex: u32| {
-            let vertex = self.vertex(vertex);
-            self.members.order(disk, &vertex, right, left)
-        };
+        let order = |vertex: u32| self.members.order(disk, self.vertex(vertex), right, left);
         let is_vertex = |vertex: u32| vertex != APEX && vertex != INFINITE;
         let (from, to) = (self.diagram.half(half).from, self.diagram.to(half));
         (!is_vertex(from) || order(from).is_ge()) && (!is_vertex(to) || order(to).is_le())

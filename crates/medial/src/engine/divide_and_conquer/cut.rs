@@ -39,9 +39,7 @@ impl Merge<'_, '_> {
             (Some(l), Some(r)) => {
                 if l != r {
                     let half = self.far_half(curve, Hand::Left);
-                    for half in self.diagram.around(half) {
-                        self.diagram.halves[half as usize].from = r;
-                    }
+                    self.diagram.replace(half, r);
                 }
                 r
             }
@@ -66,9 +64,11 @@ impl Merge<'_, '_> {
         self.diagram.halves[old as usize ^ 1].from = vertex;
         if let Some(cut) = &to_left {
             (curve.left, curve.left_cursor, curve.left_gap) = (cut.cell, cut.cursor, cut.gap);
+            (curve.left_lost, curve.entered) = (NONE, Hand::Left);
         }
         if let Some(cut) = &to_right {
             (curve.right, curve.right_cursor, curve.right_gap) = (cut.cell, cut.cursor, cut.gap);
+            (curve.right_lost, curve.entered) = (NONE, Hand::Right);
         }
         let new = next.unwrap_or_else(|| self.diagram.arc(curve.left, curve.right, vertex));
         match to_left {

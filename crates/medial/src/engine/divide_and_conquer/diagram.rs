@@ -34,29 +34,30 @@ pub(super) struct Diagram {
 }
 
 impl Diagram {
-    /// The diagrams of single edges, `n_edges` of them: five cells each, with four arcs between them,
-    /// the normals at both ends on both sides.
-    pub fn of_edges(n_edges: u32) -> Self {
+    /// Room for the diagrams of so many edges.
+    pub fn with_room(n_edges: u32) -> Self {
         let n = n_edges as usize;
-        let mut diagram = Self {
+        Self {
             halves: Vec::with_capacity(24 * n),
             vertices: Vec::with_capacity(6 * n),
             ends: vec![[NONE; 2]; 4 * n],
-        };
-        for edge in 0..n_edges {
-            let [left, right] = [Flank::Left, Flank::Right].map(|f| Member::side(edge, f));
-            let (start, end) = (Member::start(edge), Member::end(edge));
-            // Outwards with the first cell to the left.
-            let up_at_end = diagram.ray(left, end);
-            let up_at_start = diagram.ray(start, left);
-            let down_at_start = diagram.ray(right, start);
-            let down_at_end = diagram.ray(end, right);
-            diagram.bound(left, up_at_end, up_at_start ^ 1);
-            diagram.bound(start, up_at_start, down_at_start ^ 1);
-            diagram.bound(right, down_at_start, down_at_end ^ 1);
-            diagram.bound(end, down_at_end, up_at_end ^ 1);
         }
-        diagram
+    }
+
+    /// Adds the diagram of a single edge: four cells, with four arcs between them, the normals at both
+    /// ends on both sides.
+    pub fn add_edge(&mut self, edge: u32) {
+        let [left, right] = [Flank::Left, Flank::Right].map(|f| Member::side(edge, f));
+        let (start, end) = (Member::start(edge), Member::end(edge));
+        // Outwards with the first cell to the left.
+        let up_at_end = self.ray(left, end);
+        let up_at_start = self.ray(start, left);
+        let down_at_start = self.ray(right, start);
+        let down_at_end = self.ray(end, right);
+        self.bound(left, up_at_end, up_at_start ^ 1);
+        self.bound(start, up_at_start, down_at_start ^ 1);
+        self.bound(right, down_at_start, down_at_end ^ 1);
+        self.bound(end, down_at_end, up_at_end ^ 1);
     }
 
     /// An arc from a corner to infinity.
@@ -130,14 +131,23 @@ impl Diagram {
     }
 
     /// Halves that leave a vertex, counterclockwise, from one of them on.
-    pub fn around(&self, half: u32) -> Vec<u32> {
-        let mut all = vec![half];
+    pub fn around(&self, half: u32) -> impl Iterator<Item = u32> {
+        std::iter::successors(Some(half), move |&last| {
+            let before = self.half(last).prev;
+            (before != NONE && before ^ 1 != half).then_some(before ^ 1)
+        })
+    }
+
+    /// Gives all halves that leave a vertex another one.
+    pub fn replace(&mut self, first: u32, vertex: u32) {
+        let mut half = first;
         loop {
-            let before = self.half(all[all.len() - 1]).prev;
-            if before == NONE || before ^ 1 == half {
-                return all;
+            self.halves[half as usize].from = vertex;
+            let before = self.half(half).prev;
+            if before == NONE || before ^ 1 == first {
+                return;
             }
-            all.push(before ^ 1);
+            half = before ^ 1;
         }
     }
 }

@@ -1,8 +1,9 @@
 //! Boundary elements seen from both sides.
 
+use super::exact::Exacts;
 use super::infinity::turn;
 use super::touches;
-use crate::domain::{Domain, Site};
+use crate::domain::{Domain, Edge, Site};
 use crate::geom::predicates::Element;
 use crate::geom::{Governor, Point};
 
@@ -55,13 +56,35 @@ impl Member {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Members<'a> {
     pub domain: &'a Domain,
+    pub exacts: &'a Exacts,
+    /// One to an edge.
+    lines: &'a [Line],
     /// Whether the boundary touches itself anywhere.
     pub touches: bool,
 }
 
+/// Where an edge starts and ends, and its unit direction.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Line {
+    ends: [Point; 2],
+    direction: Point,
+}
+
+impl Line {
+    /// Those of all edges of a domain.
+    pub fn all(domain: &Domain) -> Vec<Self> {
+        let edges = domain.edges().iter();
+        let line = |edge: &Edge| {
+            let ends = [edge.start, domain.edge(edge.next).start];
+            Self { ends, direction: edge.direction }
+        };
+        edges.map(line).collect()
+    }
+}
+
 impl<'a> Members<'a> {
-    pub fn new(domain: &'a Domain) -> Self {
-        Self { domain, touches: touches::any(domain) }
+    pub fn new(domain: &'a Domain, lines: &'a [Line], exacts: &'a Exacts) -> Self {
+        Self { domain, exacts, lines, touches: touches::any(domain) }
     }
 
     /// Whether one side goes straight on where another one ends, in either order.
@@ -99,22 +122,22 @@ impl<'a> Members<'a> {
         without
     }
 
+    #[inline]
+    fn line(&self, member: Member) -> &Line {
+        &self.lines[member.edge() as usize]
+    }
+
     /// Where a corner is.
+    #[inline]
     pub fn place(&self, corner: Member) -> Point {
-        let edge = corner.edge();
-        if corner.0 & 3 == 0 { self.domain.edge(edge).start } else { self.domain.end(edge) }
+        self.line(corner).ends[(corner.0 >> 1 & 1) as usize]
     }
 
     /// The ends of a side, so that it is seen from its left; a corner twice.
+    #[inline]
     pub fn ends(&self, member: Member) -> (Point, Point) {
-        let edge = member.edge();
-        let (a, b) = (self.domain.edge(edge).start, self.domain.end(edge));
-        match member.0 & 3 {
-            0 => (a, a),
-            1 => (a, b),
-            2 => (b, a),
-            _ => (b, b),
-        }
+        let ends = &self.line(member).ends;
+        (ends[(member.0 >> 1 & 1) as usize], ends[(member.0 & 1) as usize])
     }
 
     pub fn element(&self, member: Member) -> Element {
@@ -122,6 +145,7 @@ impl<'a> Members<'a> {
         if member.is_corner() { Element::Corner(a) } else { Element::Edge(a, b) }
     }
 
+    #[inline]
     pub fn governor(&self, member: Member) -> Governor {
         let (start, end) = self.ends(member);
         if member.is_corner() {
@@ -133,7 +157,7 @@ impl<'a> Members<'a> {
     /// The unit vector along a side, seen from its left.
     #[inline]
     pub fn direction(&self, side: Member) -> Point {
-        let direction = self.domain.edge(side.edge()).direction;
+        let direction = self.line(side).direction;
         if side.flank() == Flank::Left { direction } else { -direction }
     }
 

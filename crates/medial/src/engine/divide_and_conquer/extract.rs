@@ -9,7 +9,7 @@ use crate::engine::EngineError;
 use crate::engine::draft::contacts::{Contacts, from_least};
 use crate::engine::draft::{Fixed, Traced};
 use crate::engine::watch::Watch;
-use crate::geom::Point;
+use crate::geom::{Point, TouchingDisk};
 
 /// The axis, with keypoints and paths in boundary order.
 pub(super) fn axis(
@@ -24,11 +24,8 @@ pub(super) fn axis(
     for (k, edge) in domain.edges().iter().enumerate() {
         watch.check()?;
         let k = k as u32;
-        let mut cells = vec![Member::side(k, Flank::Left)];
-        if edge.corner == Corner::Reflex {
-            cells.push(members.member(Site::corner(k)));
-        }
-        for cell in cells {
+        let corner = (edge.corner == Corner::Reflex).then(|| members.member(Site::corner(k)));
+        for cell in std::iter::once(Member::side(k, Flank::Left)).chain(corner) {
             let mut half = diagram.ends[cell.0 as usize][0];
             let mut left = diagram.halves.len();
             while half != NONE {
@@ -82,21 +79,27 @@ fn keypoint(
     }
     let place = members.ends(diagram.half(half).cell).0;
     let broken = EngineError::Internal { stage: "reading a path", place };
-    let Disk { triple, disk } = diagram.disk(vertex).ok_or(broken)?;
-    let around = diagram.around(half);
-    let cells = around.iter().map(|&h| members.site(diagram.half(h).cell));
-    let contacts: Contacts = cells.collect();
-    let is_normal = |&&h: &&u32| members.is_normal(diagram.half(h).cell, diagram.beyond(h));
-    let normals = around.iter().filter(is_normal).count();
+    let Disk { triple, is_plain, disk } = diagram.disk(vertex).ok_or(broken)?;
+    let (mut contacts, mut normals) = (Contacts::new(), 0);
+    for half in diagram.around(half) {
+        let cell = diagram.half(half).cell;
+        contacts.push(members.site(cell));
+        normals += usize::from(members.is_normal(cell, diagram.beyond(half)));
+    }
     let kind = if contacts.len() - normals == 2 {
         KeypointKind::Transition
     } else {
         KeypointKind::Junction
     };
     let triple = triple.map(|m| members.site(m));
+    // The place depends on the governors only.
     let is_own = contacts.len() == 3 && triple.iter().all(|site| contacts.contains(site));
-    let own = is_own.then_some(&disk);
-    let fixed = Fixed { own, sought: false, found: &disk, triple };
+    let own = match contacts[..] {
+        [a, b, c] if is_own && !is_plain => TouchingDisk::touching(&domain.governors([a, b, c])),
+        _ => is_own.then_some(disk),
+    };
+    let sought = is_own && !is_plain;
+    let fixed = Fixed { own: own.as_ref(), sought, found: &disk, triple };
     let keypoint = traced.add_disk(domain, &fixed, kind, &from_least(&contacts))?;
     number[vertex as usize] = keypoint;
     Ok(keypoint)

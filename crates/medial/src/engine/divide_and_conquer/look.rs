@@ -68,8 +68,9 @@ impl Merge<'_, '_> {
         if hand == Hand::Left { self.diagram.to(half) } else { self.diagram.half(half).from }
     }
 
-    pub(super) fn vertex(&self, vertex: u32) -> Disk {
-        self.diagram.vertices[vertex as usize]
+    #[inline]
+    pub(super) fn vertex(&self, vertex: u32) -> &Disk {
+        &self.diagram.vertices[vertex as usize]
     }
 
     /// Whether a disk lies ahead of the start of the present piece.
@@ -80,15 +81,57 @@ impl Merge<'_, '_> {
             .is_none_or(|start| self.members.order(disk, start, curve.right, curve.left).is_gt())
     }
 
+    /// What both cells have ahead, left and right, as far as it comes into question.
+    ///
+    /// Of the cell that the curve entered before the other one only the part behind the last vertex lost
+    /// is known: what the other cell has before that comes first, whatever this one has.
+    pub(super) fn look_both(&self, curve: &mut Curve) -> (Ahead, Ahead) {
+        match curve.entered {
+            Hand::Left => {
+                let left = self.look(curve, Hand::Left);
+                let is_first = self.is_before_lost(curve, Hand::Right, &left);
+                let right = if is_first { Ahead::Nothing } else { self.look(curve, Hand::Right) };
+                (left, right)
+            }
+            Hand::Right => {
+                let right = self.look(curve, Hand::Right);
+                let is_first = self.is_before_lost(curve, Hand::Left, &right);
+                let left = if is_first { Ahead::Nothing } else { self.look(curve, Hand::Left) };
+                (left, right)
+            }
+        }
+    }
+
+    /// Whether something certainly comes before the last vertex lost in the cell to one hand.
+    fn is_before_lost(&self, curve: &Curve, hand: Hand, ahead: &Ahead) -> bool {
+        let lost = if hand == Hand::Left { curve.left_lost } else { curve.right_lost };
+        let (Some(disk), true) = (ahead.disk(), lost != NONE) else { return false };
+        self.is_onwards(curve, hand, disk, &self.diagram.vertices[lost as usize])
+    }
+
+    /// Whether the spoke to a vertex around the cell to one hand certainly lies beyond that to a disk
+    /// ahead.
+    pub(super) fn is_onwards(&self, curve: &Curve, hand: Hand, disk: &Disk, vertex: &Disk) -> bool {
+        let (cell, onwards) = match hand {
+            Hand::Left => (curve.left, Some(Ordering::Greater)),
+            Hand::Right => (curve.right, Some(Ordering::Less)),
+        };
+        let turn = |a: &Disk, b: &Disk| self.members.turn_around(cell, a, b) == onwards;
+        // Around a corner both must lie within half a turn from the start.
+        let is_near =
+            || curve.start.as_ref().is_some_and(|start| turn(start, disk) && turn(start, vertex));
+        turn(disk, vertex) && (!cell.is_corner() || is_near())
+    }
+
     /// What the cell to one hand has ahead.
-    pub(super) fn look(&mut self, curve: &mut Curve, hand: Hand) -> Ahead {
+    fn look(&self, curve: &mut Curve, hand: Hand) -> Ahead {
         let (cell, other) = match hand {
             Hand::Left => (curve.left, curve.right),
             Hand::Right => (curve.right, curve.left),
         };
-        let (mut cursor, mut gap) = match hand {
-            Hand::Left => (curve.left_cursor, curve.left_gap),
-            Hand::Right => (curve.right_cursor, curve.right_gap),
+        let (mut cursor, mut gap, mut lost) = match hand {
+            Hand::Left => (curve.left_cursor, curve.left_gap, curve.left_lost),
+            Hand::Right => (curve.right_cursor, curve.right_gap, curve.right_lost),
         };
         let ahead = loop {
             if let Some(gap) = &mut gap
@@ -123,12 +166,11 @@ impl Merge<'_, '_> {
                 }
                 let vertex = self.vertex(far);
                 // Where it comes to the rim in a vertex it leaves it at once.
-                let meets =
-                    if along { Ordering::Equal } else { self.members.meets(&vertex, other) };
+                let meets = if along { Ordering::Equal } else { self.members.meets(vertex, other) };
                 match meets {
                     Ordering::Less => {}
-                    Ordering::Equal if self.is_ahead(curve, &vertex) => {
-                        break Ahead::Rim(vertex, far);
+                    Ordering::Equal if self.is_ahead(curve, vertex) => {
+                        break Ahead::Rim(*vertex, far);
                     }
                     Ordering::Equal if along => {}
                     _ => break Ahead::Nothing,
@@ -151,14 +193,15 @@ impl Merge<'_, '_> {
                 }
                 _ => {
                     let vertex = self.vertex(far);
-                    match self.members.meets(&vertex, other) {
+                    match self.members.meets(vertex, other) {
                         Ordering::Less => {
+                            lost = far;
                             cursor = self.step(half, hand);
                             continue;
                         }
                         Ordering::Equal => {
-                            if self.is_ahead(curve, &vertex) {
-                                break Ahead::Arc(vertex, Some(far), half);
+                            if self.is_ahead(curve, vertex) {
+                                break Ahead::Arc(*vertex, Some(far), half);
                             }
                             cursor = self.step(half, hand);
                             continue;
@@ -171,11 +214,16 @@ impl Merge<'_, '_> {
                 .members
                 .disk([curve.right, beyond, curve.left])
                 .filter(|disk| self.members.in_zone(disk, beyond) && self.is_ahead(curve, disk));
-            break disk.map_or(Ahead::Nothing, |disk| Ahead::Arc(disk, None, half));
+            break disk
+                .map_or(Ahead::Nothing, |disk| Ahead::Arc(self.members.sharp(disk), None, half));
         };
         match hand {
-            Hand::Left => (curve.left_cursor, curve.left_gap) = (cursor, gap),
-            Hand::Right => (curve.right_cursor, curve.right_gap) = (cursor, gap),
+            Hand::Left => {
+                (curve.left_cursor, curve.left_gap, curve.left_lost) = (cursor, gap, lost);
+            }
+            Hand::Right => {
+                (curve.right_cursor, curve.right_gap, curve.right_lost) = (cursor, gap, lost);
+            }
         }
         ahead
     }

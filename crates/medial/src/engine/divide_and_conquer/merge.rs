@@ -7,6 +7,8 @@
 
 use std::cmp::Ordering;
 
+use smallvec::SmallVec;
+
 use super::diagram::{APEX, Diagram, INFINITE, NONE};
 use super::disks::Disk;
 use super::elements::{Flank, Member, Members};
@@ -40,6 +42,15 @@ impl Joint {
         let corners = if ends_first { [end, start] } else { [start, end] };
         let flanks = &[Flank::Left, Flank::Right];
         Self { flanks, ..Self::of_rings(members, edges, ends_first, corners) }
+    }
+
+    /// The side on which the boundary is convex, if it turns.
+    pub fn convex(&self) -> Option<Flank> {
+        match self.corner {
+            Corner::Convex => Some(Flank::Left),
+            Corner::Reflex => Some(Flank::Right),
+            Corner::Straight => None,
+        }
     }
 
     /// A sector of the interior between an edge of one ring and the next one of another ring, which it
@@ -151,6 +162,11 @@ pub(super) struct Curve {
     /// Where either cell reaches infinity before that arc.
     pub right_gap: Option<Gap>,
     pub left_gap: Option<Gap>,
+    /// The last vertex of either cell that the other chain was found to take away.
+    pub right_lost: u32,
+    pub left_lost: u32,
+    /// In which cell the curve has come last.
+    pub entered: Hand,
     /// Where the present piece starts; `None` in a corner.
     pub start: Option<Disk>,
     /// The piece as the left cell sees it.
@@ -165,8 +181,19 @@ impl Curve {
         start: Option<Disk>,
         piece: u32,
     ) -> Self {
-        let (right_gap, left_gap) = (None, None);
-        Self { right, left, right_cursor, left_cursor, right_gap, left_gap, start, piece }
+        Self {
+            right,
+            left,
+            right_cursor,
+            left_cursor,
+            right_gap: None,
+            left_gap: None,
+            right_lost: NONE,
+            left_lost: NONE,
+            entered: Hand::Left,
+            start,
+            piece,
+        }
     }
 }
 
@@ -183,9 +210,11 @@ impl<'m, 'a> Merge<'m, 'a> {
     /// Merges the diagrams.
     pub fn run(mut self) -> Result<(), EngineError> {
         let joints = self.joints;
-        let mut met: Vec<(usize, Flank)> = Vec::new();
+        let mut met: SmallVec<[(usize, Flank); 4]> = SmallVec::new();
         for (k, joint) in joints.iter().enumerate() {
-            for &flank in joint.flanks {
+            // Nobody asks for the right side of a closed ring.
+            let is_asked = |flank: &&Flank| joints.len() == 1 || **flank == Flank::Left;
+            for &flank in joint.flanks.iter().filter(is_asked) {
                 if met.contains(&(k, flank)) {
                     continue;
                 }
@@ -216,11 +245,8 @@ impl<'m, 'a> Merge<'m, 'a> {
         let most = 16 * self.diagram.ends.len() + 64;
         for _ in 0..most {
             self.watch.check()?;
-            let (to_left, to_right) = if closing.is_some() {
-                self.look_around(curve)
-            } else {
-                (self.look(curve, Hand::Left), self.look(curve, Hand::Right))
-            };
+            let (to_left, to_right) =
+                if closing.is_some() { self.look_around(curve) } else { self.look_both(curve) };
             let order = match (to_left.disk(), to_right.disk()) {
                 (Some(l), Some(r)) => self.members.order(l, r, curve.right, curve.left),
                 (Some(_), None) => Ordering::Less,

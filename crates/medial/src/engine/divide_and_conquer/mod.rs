@@ -9,17 +9,18 @@
 //! # Method
 //! 1. An edge with its two corners is a chain; its diagram has five cells, with the normals at both ends
 //!    between them. A side of an edge is an element, so a diagram covers the whole plane.
-//! 2. Chains that follow one another are merged two at a time, level by level and without recursion
-//!    [Lee82, Fig. 8]; the last merge closes the ring (`merge.rs`).
+//! 2. The diagram of two edges that follow one another is written down (`pairs.rs`). Longer chains are
+//!    merged two at a time, of one length and without recursion [Lee82, Fig. 8]; the last merge closes
+//!    the ring (`merge.rs`).
 //! 3. A merge follows the curve of all points as near to one chain as to the other [Lee82, §II]. Left of
 //!    it the arcs of a cell are scanned counterclockwise, right of it clockwise, each from where the last
 //!    scan ended; arcs whose far end the other chain takes away are dropped for good (`look.rs`). The
 //!    nearer of the two arcs met ends the piece, is cut, and the next piece starts (`cut.rs`).
 //! 4. A walk that passes a place more than once is cut into simple rings, whose diagrams are merged in the
 //!    places where they touch, like chains in their corners (`touches.rs`).
-//! 5. Walks are merged the largest first, each with a closed curve around it, which starts where a normal
-//!    of the walk, or another arc around its reflex corners, is lost to the others (`rings.rs`,
-//!    `around.rs`).
+//! 5. Holes are merged after those that they may lie in (`order.rs`), each with a closed curve around it,
+//!    which starts where a normal of the walk, or another arc around its reflex corners, is lost to the
+//!    others (`rings.rs`, `around.rs`).
 //! 6. The axis is what the cells of the inner sides have for arcs, without the normals of edges at their
 //!    own ends [Lee82, cor. 3] (`extract.rs`).
 //!
@@ -44,9 +45,9 @@
 //!   the other chain lie between two neighbouring ones, and exactly the arc between those is lost.
 //! - Chains are single edges: the diagram of a chain of reflex corners is not built directly, since on its
 //!   other side it is no simpler than any.
-//! - Holes are not in the paper. Of a ring that is merged after all rings at least as wide, none there
-//!   already can be surrounded: a ring whose cells are bounded by those of another one lies inside the
-//!   hull of that, and is narrower. So what is nearer to the new ring is bounded by one closed curve.
+//! - Holes are not in the paper. A ring that is merged after all rings whose boxes hold its own surrounds
+//!   none that is there: rings whose cells are bounded by those of another one lie inside the hull of
+//!   that. So what is nearer to the new ring is bounded by one closed curve.
 //!   Along it an arc may be lost in the middle, or at both ends only; so every arc of a cell up to where
 //!   the other cell has something is asked, and what is cut off an arc stays in the lists for as long as
 //!   the curve may come back to it.
@@ -67,10 +68,13 @@ mod cut;
 mod diagram;
 mod disks;
 mod elements;
+mod exact;
 mod extract;
 mod infinity;
 mod look;
 mod merge;
+mod order;
+mod pairs;
 mod rings;
 mod touches;
 
@@ -80,7 +84,8 @@ use crate::axis::MedialAxis;
 use crate::domain::Domain;
 use crate::geom::{BoundsTree, Rect};
 use diagram::Diagram;
-use elements::Members;
+use elements::{Line, Members};
+use exact::Exacts;
 use merge::{Joint, Merge};
 use rings::Merged;
 
@@ -106,77 +111,76 @@ pub fn divide_and_conquer_with(
     let n = u32::try_from(n_edges).ok().filter(|n| *n < u32::MAX / 64);
     let n = n.ok_or(EngineError::TooLarge { n_edges })?;
     let watch = Watch::new(options);
-    let members = Members::new(domain);
-    let mut diagram = Diagram::of_edges(n);
-    for walk in domain.walks() {
+    let (lines, exacts) = (Line::all(domain), Exacts::new());
+    let members = Members::new(domain, &lines, &exacts);
+    let mut diagram = Diagram::with_room(n);
+    let has_holes = domain.walks().iter().any(|walk| walk.hole);
+    let tree = has_holes.then(|| {
+        BoundsTree::new(0, n, |k| Rect::EMPTY.with(domain.edge(k).start).with(domain.end(k)))
+    });
+    let mut merged = tree.as_ref().map(|tree| Merged::new(members, tree));
+    for k in order::of_walks(domain) {
+        let walk = &domain.walks()[k as usize];
         let rings = touches::simple_rings(members, walk);
         for ring in &rings {
             close_ring(members, &mut diagram, ring, &watch)?;
         }
         touches::merge(members, &mut diagram, walk, &rings, &watch)?;
-    }
-    if domain.walks().iter().any(|walk| walk.hole) {
-        merge_rings(members, &mut diagram, &watch)?;
+        if let Some(merged) = &mut merged {
+            if walk.hole {
+                let crossing = merged.crossing(&diagram, walk)?;
+                Merge::new(members, &mut diagram, &[], &watch).close(crossing)?;
+            }
+            merged.add(k);
+        }
     }
     extract::axis(members, &diagram, &watch)
 }
 
-/// Merges the edges of a simple ring, chains of one length two at a time [Lee82, Fig. 8].
+/// Merges the edges of a simple ring, chains of one length two at a time [Lee82, Fig. 8], each as soon as
+/// it is there: so what is merged was made a moment ago.
 fn close_ring(
     members: Members<'_>,
     diagram: &mut Diagram,
     ring: &[u32],
     watch: &Watch<'_>,
 ) -> Result<(), EngineError> {
-    let joint = |before: usize, after: usize, ends_first: bool| {
-        Joint::new(&members, [ring[before], ring[after]], ends_first)
-    };
-    let mut size = 1;
-    while size < ring.len() {
-        for first in (0..ring.len()).step_by(2 * size) {
-            let middle = first + size;
-            if middle >= ring.len() {
-                continue;
+    let joint = |after: usize| Joint::new(&members, [ring[after - 1], ring[after]], true);
+    let len = ring.len();
+    for done in 1..=len {
+        // The last chain starts with this edge of the ring.
+        let mut start = done - 1;
+        if done % 2 == 0 {
+            match joint(start).convex() {
+                Some(convex) => {
+                    let place = members.domain.edge(ring[start]).start;
+                    let broken = EngineError::Internal { stage: "joining two edges", place };
+                    let pair = [ring[start - 1], ring[start]];
+                    diagram.add_pair(&members, pair, convex).ok_or(broken)?;
+                    start -= 1;
+                }
+                None => [start - 1, start].into_iter().for_each(|k| diagram.add_edge(ring[k])),
             }
-            let mut joints = vec![joint(middle - 1, middle, true)];
-            if 2 * size >= ring.len() {
-                joints.push(joint(ring.len() - 1, 0, false));
+        } else if done == len {
+            diagram.add_edge(ring[start]);
+        } else {
+            continue;
+        }
+        while start > 0 {
+            // As many edges as the chain before it has.
+            let size = 1 << start.trailing_zeros();
+            if done - start < size && done < len {
+                break;
             }
-            Merge::new(members, diagram, &joints, watch).run()?;
+            let inner = joint(start);
+            start -= size;
+            if start == 0 && done == len {
+                let last = Joint::new(&members, [ring[len - 1], ring[0]], false);
+                Merge::new(members, diagram, &[inner, last], watch).run()?;
+            } else {
+                Merge::new(members, diagram, &[inner], watch).run()?;
+            }
         }
-        size *= 2;
-    }
-    Ok(())
-}
-
-/// Merges the diagrams of rings, the widest first: so no ring surrounds one that is there already.
-fn merge_rings(
-    members: Members<'_>,
-    diagram: &mut Diagram,
-    watch: &Watch<'_>,
-) -> Result<(), EngineError> {
-    let domain = members.domain;
-    let tree = BoundsTree::new(0, domain.edges().len() as u32, |k| {
-        Rect::EMPTY.with(domain.edge(k).start).with(domain.end(k))
-    });
-    let mut order: Vec<(u32, f64, u32)> = Vec::with_capacity(domain.walks().len());
-    for (k, walk) in domain.walks().iter().enumerate() {
-        let edges = walk.edges();
-        let bounds = edges.fold(Rect::EMPTY, |all, e| all.with(domain.edge(e).start));
-        order.push((walk.component, bounds.max.x - bounds.min.x, k as u32));
-    }
-    // Component by component, the outer ring of each first.
-    order.sort_unstable_by(|a, b| {
-        a.0.cmp(&b.0).then_with(|| b.1.total_cmp(&a.1)).then_with(|| a.2.cmp(&b.2))
-    });
-    let mut merged = Merged::new(members, &tree);
-    for (_, _, k) in order {
-        let walk = &domain.walks()[k as usize];
-        if walk.hole {
-            let crossing = merged.crossing(diagram, walk)?;
-            Merge::new(members, diagram, &[], watch).close(crossing)?;
-        }
-        merged.add(k);
     }
     Ok(())
 }

@@ -12,7 +12,10 @@ use crate::engine::draft::contacts::{Contacts, sort};
 use crate::geom::{BoundsTree, Point, Rect, TouchingDisk, Visitor};
 
 /// How much a disk grows that has met nothing yet.
-const GROWTH: f64 = 4.0;
+const GROWTH: f64 = 2.0;
+
+/// Radius of the largest disk on an unbounded arc, in diameters of the domain.
+const FARTHEST: f64 = 4.0;
 
 /// Rounds of growing or shrinking disks, at most.
 const MOST_ROUNDS: usize = 4096;
@@ -89,10 +92,10 @@ impl<'a> Merged<'a> {
         [Some(Member::side(edge, Flank::Left)), corner(edge), corner(next)].into_iter().flatten()
     }
 
-    /// Edges that cut an exact disk.
-    fn cutting(&self, disk: &Disk) -> Vec<u32> {
+    /// Edges that cut an exact disk, of those near it.
+    fn cutting(&self, disk: &Disk, near: &[u32]) -> Vec<u32> {
         let cuts = |&edge: &u32| self.members.meets(disk, Member::side(edge, Flank::Left)).is_lt();
-        self.near(&disk.disk).into_iter().filter(cuts).collect()
+        near.iter().copied().filter(cuts).collect()
     }
 
     /// Of the elements at some edges the one whose disk comes first along an arc, after its start and
@@ -134,7 +137,8 @@ impl<'a> Merged<'a> {
                 }
                 // Infinity has no disk, and is lost.
                 let far = diagram.disk(diagram.to(half));
-                if far.as_ref().is_none_or(|far| !self.cutting(far).is_empty()) {
+                let far = far.map(|far| (self.cutting(&far, &self.near(&far.disk)), far));
+                if far.as_ref().is_none_or(|(edges, _)| !edges.is_empty()) {
                     if let Some(crossing) = self.on(diagram, half, far) {
                         return Ok(crossing);
                     }
@@ -147,31 +151,33 @@ impl<'a> Merged<'a> {
         Err(EngineError::Internal { stage: "looking for the merge curve around a ring", place })
     }
 
-    /// Where the merge curve crosses an arc whose far end is lost.
-    fn on(&self, diagram: &Diagram, half: u32, far: Option<Disk>) -> Option<Crossing> {
+    /// Where the merge curve crosses an arc whose far end is lost, to some edges if it is a vertex.
+    fn on(&self, diagram: &Diagram, half: u32, far: Option<(Vec<u32>, Disk)>) -> Option<Crossing> {
         let (left, right) = (diagram.half(half).cell, diagram.beyond(half));
         let start = diagram.disk(diagram.half(half).from);
-        let mut edges = match &far {
-            Some(far) => self.cutting(far),
-            None => self.first_near(left, right, start.as_ref()),
+        let first = |edges: &[u32], end: Option<&Disk>| {
+            self.first(edges, (right, left), start.as_ref(), end)
         };
-        let mut disk = far;
+        let mut next = match &far {
+            Some((edges, far)) => first(edges, Some(far))?,
+            None => self.first_near(left, right, start.as_ref())?,
+        };
         for _ in 0..MOST_ROUNDS {
-            let next = self.first(&edges, (right, left), start.as_ref(), disk.as_ref())?;
-            edges = self.cutting(&next);
+            let near = self.near(&next.disk);
+            let edges = self.cutting(&next, &near);
             if edges.is_empty() {
-                return self.crossing_at(diagram, half, next);
+                return self.crossing_at(diagram, half, next, near);
             }
-            disk = Some(next);
+            next = first(&edges, Some(&next))?;
         }
         None
     }
 
-    /// Edges met by growing disks on an unbounded arc.
-    fn first_near(&self, left: Member, right: Member, start: Option<&Disk>) -> Vec<u32> {
+    /// The first disk that growing disks on an unbounded arc lead to.
+    fn first_near(&self, left: Member, right: Member, start: Option<&Disk>) -> Option<Disk> {
         let ((l, l_end), (r, r_end)) = (self.members.ends(left), self.members.ends(right));
         let all = self.tree.bounds();
-        let largest = (all.max - all.min).norm() * GROWTH;
+        let largest = (all.max - all.min).norm() * FARTHEST;
         let (middle, way, half) = if right.is_corner() {
             let across = l - r;
             let length = across.norm();
@@ -180,25 +186,33 @@ impl<'a> Merged<'a> {
             let direction = (r_end - r) * (1.0 / (r_end - r).norm());
             (l_end, direction.perp(), 0.0)
         };
-        let mut radius = start.map_or(0.0, |s| s.disk.radius).max(half).max(largest * 1e-6) * 2.0;
+        let size = (l_end - l).norm().max((r_end - r).norm()).max(largest * 2e-6) / 2.0;
+        let mut radius = start.map_or(0.0, |s| s.disk.radius).max(half).max(size);
         loop {
             let along = (radius * radius - half * half).max(0.0).sqrt();
             let (origin, centre) = (middle, way * along);
             let disk = TouchingDisk { origin, centre, radius, bound: f64::INFINITY };
             let edges = self.near(&disk);
-            if self.first(&edges, (right, left), start, None).is_some() || radius > largest {
-                return edges;
+            let first = self.first(&edges, (right, left), start, None);
+            if first.is_some() || radius > largest {
+                return first;
             }
             radius *= GROWTH;
         }
     }
 
     /// What the curve needs to start at a disk on an arc of the ring.
-    fn crossing_at(&self, diagram: &Diagram, half: u32, start: Disk) -> Option<Crossing> {
+    fn crossing_at(
+        &self,
+        diagram: &Diagram,
+        half: u32,
+        start: Disk,
+        near: Vec<u32>,
+    ) -> Option<Crossing> {
         let members = &self.members;
         let domain = members.domain;
         let mut contacts: Contacts = start.triple.iter().map(|&m| members.site(m)).collect();
-        for member in self.near(&start.disk).into_iter().flat_map(|edge| self.members_at(edge)) {
+        for member in near.into_iter().flat_map(|edge| self.members_at(edge)) {
             if members.meets(&start, member).is_eq() {
                 contacts.push(members.site(member));
             }

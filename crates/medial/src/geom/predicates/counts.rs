@@ -9,6 +9,8 @@ pub struct Counts {
     pub structure: u64,
     /// Doubles with a bound on their error, for a disk already built.
     pub rounded: u64,
+    /// Short integers, for a disk whose numbers are binary fractions.
+    pub dyadic: u64,
     /// Four corners, by one determinant.
     pub corners: u64,
     /// Four edges, by minors of 256 bits.
@@ -27,7 +29,7 @@ pub struct Counts {
 
 thread_local! {
     static COUNTS: Cell<Counts> = const {
-        Cell::new(Counts { structure: 0, rounded: 0, corners: 0, edges: 0, transitions: 0, two_ends: 0, fine: 0, disks: 0, tower: 0 })
+        Cell::new(Counts { structure: 0, rounded: 0, dyadic: 0, corners: 0, edges: 0, transitions: 0, two_ends: 0, fine: 0, disks: 0, tower: 0 })
     };
 }
 

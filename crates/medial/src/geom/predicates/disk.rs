@@ -6,10 +6,11 @@ use std::sync::OnceLock;
 use super::Element;
 use super::construct::{construct, corners_first};
 use super::counts::count;
+use super::dyadic::Dyadic;
 use super::fine::Fine;
 use super::grid::Vector;
 use super::homogeneous::Homogeneous;
-use super::near::Near;
+use super::near::{Near, is_impossible};
 use super::stages::special_side;
 use super::transition;
 use crate::geom::{Pinned, Point, TouchingDisk};
@@ -35,6 +36,8 @@ pub struct ExactDisk {
     elements: [Element; 3],
     /// The same disk in doubles.
     near: Near,
+    /// The same disk in short integers, once a tie asks for them and if it has any.
+    dyadic: OnceLock<Option<Dyadic>>,
     /// The same disk in pairs of doubles, once a near tie needs them and if they can prove it.
     fine: OnceLock<Option<Fine>>,
     /// The same disk in integers, once a question needs them.
@@ -54,6 +57,9 @@ impl ExactDisk {
     #[must_use]
     pub fn new(elements: [Element; 3]) -> Option<Self> {
         let elements = corners_first(elements);
+        if is_impossible(&elements) {
+            return None;
+        }
         let found = Near::found(&elements);
         if let Some(near) = found.filter(Near::is_certain) {
             return Some(Self::known(elements, near));
@@ -92,7 +98,8 @@ impl ExactDisk {
 
     fn known(elements: [Element; 3], near: Near) -> Self {
         count(|counts| counts.disks += 1);
-        Self { elements, near, fine: OnceLock::new(), form: OnceLock::new() }
+        let (dyadic, fine, form) = (OnceLock::new(), OnceLock::new(), OnceLock::new());
+        Self { elements, near, dyadic, fine, form }
     }
 
     /// Makes the disk as precise as doubles hold, for many questions.
@@ -105,20 +112,20 @@ impl ExactDisk {
         }
     }
 
+    /// The disk in doubles as pairs of doubles know it, if they know it better.
+    pub(crate) fn sharper(&self) -> Option<TouchingDisk> {
+        let near = self.fine()?.near();
+        (near.error < self.near.error).then(|| TouchingDisk::from(&near))
+    }
+
     /// The disk in doubles, within a few ulp.
     pub(crate) fn rounded(&self) -> TouchingDisk {
-        let of = |near: &Near| TouchingDisk {
-            origin: near.origin,
-            centre: near.centre,
-            radius: near.radius,
-            bound: near.error,
-        };
         // Where integers too would not tell, both are infinite.
         if self.near.error < SHARP * self.near.radius {
-            return of(&self.near);
+            return TouchingDisk::from(&self.near);
         }
         if let Some(near) = self.fine().map(Fine::near).filter(|n| n.error <= SHARP * n.radius) {
-            return of(&near);
+            return TouchingDisk::from(&near);
         }
         let (position, radius) = self.approximate();
         let origin = self.near.origin;
@@ -152,6 +159,7 @@ impl ExactDisk {
             Element::Edge(a, b) => [a.x, a.y, b.x, b.y].iter().all(|&v| v as i64 as f64 == v),
         };
         rounded(self.near.side(element))
+            .or_else(|| self.in_integers(|disk| disk.side(element)))
             .or_else(|| self.fine_now(|fine| fine.side(element)))
             .or_else(|| likely.then(|| special_side(self.elements, element)).flatten())
             .or_else(|| match element {
@@ -184,6 +192,16 @@ impl ExactDisk {
         count(|counts| counts.tower += 1);
         // A disk that exists has integers.
         self.form().map_or(Ordering::Equal, question)
+    }
+
+    fn dyadic(&self) -> Option<&Dyadic> {
+        self.dyadic.get_or_init(|| Dyadic::new(&self.elements, &self.near)).as_ref()
+    }
+
+    /// An answer of short integers.
+    fn in_integers(&self, ask: impl FnOnce(&Dyadic) -> Option<Ordering>) -> Option<Ordering> {
+        let answer = ask(self.dyadic()?);
+        answer.inspect(|_| count(|counts| counts.dyadic += 1))
     }
 
     fn fine(&self) -> Option<&Fine> {
@@ -221,6 +239,7 @@ impl ExactDisk {
     #[must_use]
     pub fn front(&self, a: Point, b: Point) -> Ordering {
         rounded(self.near.product((b - a).perp(), a))
+            .or_else(|| self.in_integers(|disk| disk.front(a, b)))
             .or_else(|| self.fine_now(|fine| fine.front(a, b)))
             .or_else(|| on_normal(transition::product_across(&self.elements, [a, b])))
             .or_else(|| self.fine_first(|fine| fine.front(a, b)))
@@ -242,6 +261,7 @@ impl ExactDisk {
             return Ordering::Equal;
         }
         rounded(self.near.product(b - a, p))
+            .or_else(|| self.in_integers(|disk| disk.along(a, b, p)))
             .or_else(|| self.fine_now(|fine| fine.along(a, b, p)))
             .or_else(|| on_normal(transition::product_along(&self.elements, [a, b], p)))
             .or_else(|| self.fine_first(|fine| fine.along(a, b, p)))
@@ -252,26 +272,41 @@ impl ExactDisk {
     /// `(b - a)·(c - c')` for the centre `c'` of the other one.
     #[must_use]
     pub fn compare_along(&self, other: &Self, a: Point, b: Point) -> Ordering {
-        rounded(self.near.difference(&other.near, b - a))
-            .unwrap_or_else(|| self.compare_in_tower(other, a, b, |along| along))
+        self.compare(other, (a, b), false)
     }
 
     /// Orders the centres of two disks across the direction from `a` to `b`: the sign of
     /// `(b - a)×(c - c')`, which is `Greater` if this one lies further to the left.
     #[must_use]
     pub fn compare_across(&self, other: &Self, a: Point, b: Point) -> Ordering {
-        rounded(self.near.difference(&other.near, (b - a).perp()))
-            .unwrap_or_else(|| self.compare_in_tower(other, a, b, |along| along.perp()))
+        self.compare(other, (a, b), true)
     }
 
-    fn compare_in_tower(
+    fn compare(&self, other: &Self, (a, b): (Point, Point), across: bool) -> Ordering {
+        let v = if across { (b - a).perp() } else { b - a };
+        rounded(self.near.difference(&other.near, v))
+            .or_else(|| {
+                self.in_integers(|disk| {
+                    let (way, direction) = disk.way_from(other.dyadic()?, a, b)?;
+                    let product = if across { direction.cross(way) } else { direction.dot(way) };
+                    Some(product.cmp(&0))
+                })
+            })
+            .or_else(|| {
+                let answer = self.fine()?.compare(other.fine()?, (a, b), across);
+                answer.inspect(|_| count(|counts| counts.fine += 1))
+            })
+            .unwrap_or_else(|| self.compare_in_tower(other, (a, b), across))
+    }
+
+    pub(super) fn compare_in_tower(
         &self,
         other: &Self,
-        a: Point,
-        b: Point,
-        turn: impl FnOnce(Vector) -> Vector,
+        (a, b): (Point, Point),
+        across: bool,
     ) -> Ordering {
         self.in_tower(|form| {
+            let turn = |along: Vector| if across { along.perp() } else { along };
             other.form().map_or(Ordering::Equal, |other| form.compare(other, a, b, turn))
         })
     }

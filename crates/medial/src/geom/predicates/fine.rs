@@ -416,6 +416,23 @@ impl Fine {
         sign(value, 2.0 * v.size() * (error + ROUNDING * c.size()) + 2.0 * U * value.abs())
     }
 
+    /// The sign of `v·(c - c')` for the centre of another disk, and `v` the way from `a` to `b`, or that
+    /// turned by a quarter to the left.
+    pub(super) fn compare(
+        &self,
+        other: &Self,
+        (a, b): (Point, Point),
+        across: bool,
+    ) -> Option<Ordering> {
+        let (from, error) = self.centre_from(other.origin);
+        let c = from.minus(other.centre);
+        let v = Pair::between(a, b);
+        let v = if across { v.perp() } else { v };
+        let value = v.dot(c).value();
+        let error = error + other.error + ROUNDING * (from.size() + other.centre.size() + c.size());
+        sign(value, 2.0 * v.size() * error + 2.0 * U * value.abs())
+    }
+
     /// The sign of the distance of an element less the radius.
     pub(super) fn side(&self, element: Element) -> Option<Ordering> {
         let radius = self.radius.value();

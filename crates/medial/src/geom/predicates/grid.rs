@@ -168,7 +168,7 @@ fn whole_numbers<const N: usize>(
 }
 
 /// The exponent of the lowest bit set in either coordinate.
-fn finest(point: Point) -> i32 {
+pub(super) fn finest(point: Point) -> i32 {
     let exponent = |value: f64| {
         let (mantissa, exponent) = decompose(value);
         // Zero lies on every grid.

@@ -12,7 +12,7 @@
 //! 1. Structure: an element that governs the disk, or ends at its contact.
 //! 2. Doubles with a bound on their error, for the disk ([`TouchingDisk`](super::TouchingDisk), else
 //!    from pairs of doubles or the integers) and for the question.
-//! 3. Forms for the ties that are common: four corners by one determinant, four edges by minors of 256
+//! 3. Forms for the ties that are common: integers for a centre that is a short binary fraction, four corners by one determinant, four edges by minors of 256
 //!    bits, centres on the normal at the end of an edge by a product of 256 bits, and the order in which
 //!    two governors leave a path by forms without roots ([`two_ends`]).
 //! 4. Pairs of doubles with a bound, for near ties that are none.
@@ -37,6 +37,7 @@
 mod construct;
 mod counts;
 mod disk;
+mod dyadic;
 mod ends;
 mod fine;
 mod grid;

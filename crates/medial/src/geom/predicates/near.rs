@@ -6,7 +6,7 @@ use super::Element;
 use super::homogeneous::{Homogeneous, Radius};
 use super::rough::Rough;
 use super::tower::Surd;
-use crate::geom::{Governor, Point, TouchingDisk, U};
+use crate::geom::{Governor, Point, TouchingDisk, U, cross_directions, orient2d};
 
 /// Rounding of a product of two sums of two differences, relative to the sizes of its terms.
 ///
@@ -137,6 +137,50 @@ impl From<&TouchingDisk> for Near {
     fn from(disk: &TouchingDisk) -> Self {
         let TouchingDisk { origin, centre, radius, bound } = *disk;
         Self { origin, centre, radius, error: bound }
+    }
+}
+
+impl From<&Near> for TouchingDisk {
+    fn from(near: &Near) -> Self {
+        let Near { origin, centre, radius, error } = *near;
+        Self { origin, centre, radius, bound: error }
+    }
+}
+
+/// Whether there certainly is no disk that touches three elements, which are in the order that
+/// [`corners_first`](super::construct::corners_first) gives, in their order.
+pub(super) fn is_impossible(elements: &[Element; 3]) -> bool {
+    use Element::{Corner, Edge};
+    let is_equal = |(a, b): (Point, Point), (c, d): (Point, Point)| {
+        cross_directions(a, b, c, d) == 0.0 && (b - a).dot(d - c) > 0.0
+    };
+    match *elements {
+        [Corner(p), Corner(q), Corner(s)] => orient2d(p, q, s) <= 0.0,
+        [Corner(p), Corner(q), Edge(a, b)] => {
+            let (of_p, of_q) = (orient2d(a, b, p), orient2d(a, b, q));
+            // Where both are as far away the contact lies between them.
+            let is_turned = || cross_directions(a, b, p, q) == 0.0 && (b - a).dot(q - p) >= 0.0;
+            of_p < 0.0 || of_q < 0.0 || of_p == 0.0 && of_q == 0.0 || is_turned()
+        }
+        [Corner(p), Edge(a, b), Edge(c, d)] => {
+            let (first, second) = (orient2d(a, b, p), orient2d(c, d, p));
+            let is_on_both = first == 0.0 && second == 0.0;
+            first < 0.0 || second < 0.0 || is_on_both || is_equal((a, b), (c, d))
+        }
+        [Edge(a, b), Edge(c, d), Edge(e, f)] => {
+            let [t, u, v] = [b - a, d - c, f - e].map(|d| d * (1.0 / d.norm()));
+            let (tu, uv, vt) = (t.cross(u), u.cross(v), v.cross(t));
+            // Twice the area of the triangle of the normals, and the radius times that.
+            let (p, q) = (a - c, a - e);
+            let (hu, hv) = (u.cross(p), v.cross(q));
+            let size = p.x.abs() + p.y.abs() + q.x.abs() + q.y.abs();
+            tu + uv + vt < -64.0 * U
+                || hu * vt + hv * tu < -64.0 * U * size
+                || [((a, b), (c, d)), ((c, d), (e, f)), ((e, f), (a, b))]
+                    .iter()
+                    .any(|&(e, f)| is_equal(e, f))
+        }
+        _ => false,
     }
 }
 

@@ -222,3 +222,19 @@ fn a_disk_that_no_doubles_can_tell_is_rounded_from_its_integers() {
     let off = (rounded.position() - centre).norm() + (rounded.radius - radius).abs();
     assert!(off <= 2.0 * rounded.bound, "{rounded:?} {centre:?} {radius}");
 }
+
+#[test]
+fn ties_of_binary_fractions_are_ties() {
+    // The centre (2.5, 2.5) of four corners, whose radius is no fraction; a touching edge; two equal
+    // centres.
+    let [a, b, c, d] = [(2.0, 2.0), (3.0, 2.0), (3.0, 3.0), (2.0, 3.0)].map(|(x, y)| corner(x, y));
+    let first = disk([a, b, c]);
+    assert_eq!(first.side(d), Equal);
+    assert_eq!(first.side(corner(2.0, 3.0f64.next_up())), Greater);
+    assert_eq!(first.side(edge(1.0, 2.0, 4.0, 5.0)), Less);
+    assert_eq!(first.side(edge(1.0, 3.0, 3.0, 1.0)), Equal);
+    assert_eq!(first.along(p(0.0, 0.0), p(0.0, 7.0), p(9.0, 2.5)), Equal);
+    let second = disk([b, c, d]);
+    assert_eq!(first.compare_along(&second, p(0.0, 0.0), p(3.0, 1.0)), Equal);
+    assert_eq!(first.compare_across(&second, p(0.0, 0.0), p(3.0, 1.0)), Equal);
+}

@@ -1,0 +1,103 @@
+//! The order in which holes are merged.
+//!
+//! A hole comes after all whose boxes hold its own. Those that hold none come in rounds, each with about
+//! twice as many as the one before, so that the first ones lie everywhere; within a round neighbours
+//! follow one another, so that what is looked at was looked at a moment ago.
+
+use std::cmp::Reverse;
+use std::ops::Range;
+
+use crate::domain::Domain;
+use crate::geom::{BoundsTree, Rect, Visitor, hilbert};
+
+/// When a walk comes within its component.
+#[derive(PartialEq, Eq, PartialOrd, Ord)]
+enum Place {
+    Outer,
+    /// A hole whose box holds others, by its width.
+    Around(Reverse<u64>),
+    /// Any other hole, by round and place.
+    Alone(Reverse<u32>, u64),
+}
+
+/// Looks for a hole in the box of another one.
+struct Inside<'b> {
+    boxes: &'b [Rect],
+    holes: &'b [u32],
+    of: u32,
+    found: bool,
+}
+
+impl Visitor for Inside<'_> {
+    fn enters(&self, bounds: &Rect, _: Range<u32>) -> bool {
+        !self.found && bounds.meets(&self.boxes[self.of as usize])
+    }
+
+    fn item(&mut self, item: u32) {
+        let hole = self.holes[item as usize];
+        let (outer, inner) = (&self.boxes[self.of as usize], &self.boxes[hole as usize]);
+        self.found |= hole != self.of && outer.holds(inner.min) && outer.holds(inner.max);
+    }
+}
+
+/// The walks in the order in which they are merged: component by component, the outer ring of each first.
+pub(super) fn of_walks(domain: &Domain) -> Vec<u32> {
+    let walks = domain.walks();
+    let boxes: Vec<Rect> = walks
+        .iter()
+        .map(|walk| walk.edges().map(|edge| domain.edge(edge).start).fold(Rect::EMPTY, Rect::with))
+        .collect();
+    let holes: Vec<u32> = (0..walks.len() as u32).filter(|&k| walks[k as usize].hole).collect();
+    let tree = BoundsTree::new(0, holes.len() as u32, |k| boxes[holes[k as usize] as usize]);
+    let all = tree.bounds();
+    let mut order: Vec<(u32, Place, u32)> = Vec::with_capacity(walks.len());
+    for (k, (walk, own)) in (0..).zip(walks.iter().zip(&boxes)) {
+        let place = if walk.hole {
+            let mut inside = Inside { boxes: &boxes, holes: &holes, of: k, found: false };
+            tree.visit(&mut inside);
+            if inside.found {
+                // Positive numbers are in the order of their bits.
+                Place::Around(Reverse((own.max.x - own.min.x).to_bits()))
+            } else {
+                let middle = own.min + (own.max - own.min) * 0.5;
+                Place::Alone(Reverse(round(k)), hilbert(&all, middle))
+            }
+        } else {
+            Place::Outer
+        };
+        order.push((walk.component, place, k));
+    }
+    order.sort_unstable();
+    order.into_iter().map(|(.., k)| k).collect()
+}
+
+/// The round of a walk, counted from the last one: each holds about half of all that are not in later
+/// ones.
+fn round(walk: u32) -> u32 {
+    // Every bit of the number tells in the bits that are counted.
+    let mixed = walk.wrapping_add(1).wrapping_mul(0x9e37_79b1);
+    (mixed ^ mixed >> 15).wrapping_mul(0x85eb_ca77).leading_zeros()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::domain::Options;
+    use crate::geom::Point;
+
+    #[test]
+    fn a_hole_comes_after_the_one_in_whose_hollow_it_lies() {
+        let ring = |corners: &[(f64, f64)]| -> Vec<Point> {
+            corners.iter().map(|&(x, y)| Point::new(x, y)).collect()
+        };
+        let square = |x: f64, y: f64, size: f64| {
+            ring(&[(x, y), (x + size, y), (x + size, y + size), (x, y + size)])
+        };
+        let cup =
+            ring(&[(2., 2.), (8., 2.), (8., 7.), (7., 7.), (7., 3.), (3., 3.), (3., 7.), (2., 7.)]);
+        let rings = vec![square(0., 0., 10.), square(4., 4., 1.), cup, square(5.5, 4., 1.)];
+        let domain = Domain::from_polygons(&[rings], &Options::default()).unwrap();
+        let order = of_walks(&domain);
+        assert_eq!((order[0], order[1], order.len()), (0, 2, 4));
+    }
+}
