@@ -130,10 +130,9 @@ impl Merge<'_, '_> {
                 None if far == INFINITE => Ordering::Less,
                 None => Ordering::Greater,
             };
-            // Along a straight arc with an edge beside it the radius is linear, and the distance of the
-            // other element is convex: between two ends that it takes away it takes all.
+            // Between two ends that the other element takes away it takes all.
             let is_lost = std::mem::replace(&mut scan.is_lost, meets.is_lt() && vertex.is_some());
-            if is_lost && scan.is_lost && self.is_linear(half) {
+            if is_lost && scan.is_lost && self.is_convex(half, scan.other) {
                 continue;
             }
             let at_end = vertex.filter(|vertex| meets.is_eq() && self.is_ahead(curve, vertex));
@@ -156,12 +155,16 @@ impl Merge<'_, '_> {
         found
     }
 
-    /// Whether the radius is a linear function along an arc: between two edges, or on a normal.
-    fn is_linear(&self, half: u32) -> bool {
+    /// Whether the part of an arc that another element takes away is convex.
+    ///
+    /// The distance of the element is a convex function along a straight line, and the radius is linear
+    /// between two edges and on a normal. Between two corners the difference of squared distances from
+    /// corners is linear.
+    fn is_convex(&self, half: u32, other: Member) -> bool {
         let (cell, beyond) = (self.diagram.half(half).cell, self.diagram.beyond(half));
         match (cell.is_corner(), beyond.is_corner()) {
             (false, false) => true,
-            (true, true) => false,
+            (true, true) => other.is_corner(),
             _ => self.members.is_normal(cell, beyond),
         }
     }

@@ -2,7 +2,8 @@
 //!
 //! # Method
 //! The bound of a certified disk tells how far every distance from its centre may be off. What doubles
-//! leave open is asked of the exact disk, which is made for the question.
+//! leave open is looked up in the elements touched: in a tie doubles never tell. What these leave open
+//! is asked of the exact disk, which is kept for a while (`exact.rs`).
 
 use std::cmp::Ordering;
 use std::rc::Rc;
@@ -94,10 +95,12 @@ impl Members<'_> {
         (disk.radius > 0.0).then_some(Disk { triple, is_plain: false, disk })
     }
 
-    /// A disk about which more will be asked, made sharper where it is poor.
+    /// A disk about which more will be asked, made sharper where it is poor; those on normals are so only
+    /// where they are huge, and little is asked about them.
     #[inline]
     pub fn sharp(&self, disk: Disk) -> Disk {
-        if disk.disk.bound <= POOR * disk.disk.radius { disk } else { self.sharper(disk) }
+        let is_poor = disk.disk.bound > POOR * disk.disk.radius;
+        if is_poor && self.normal_in(&disk.triple).is_none() { self.sharper(disk) } else { disk }
     }
 
     #[cold]

@@ -43,8 +43,12 @@
 //! - Ties are not broken arbitrarily. A vertex of a diagram that lies on the curve becomes one vertex of
 //!   higher degree: contacts of two connected sets do not interleave around a disk, so the contacts of
 //!   the other chain lie between two neighbouring ones, and exactly the arc between those is lost.
-//! - Chains are single edges: the diagram of a chain of reflex corners is not built directly, since on its
-//!   other side it is no simpler than any.
+//! - Chains are pairs of edges: the diagram of a chain of reflex corners is not built directly, since on
+//!   its other side it is no simpler than any. The last merge of a ring follows the curve on the left
+//!   side only, as nobody asks for right sides after it.
+//! - Of the two cells beside a piece the one that the curve entered last is asked first. Where that has
+//!   something before the last vertex which the other one was found to lose, the other one is not asked:
+//!   a curve passes the arcs of a cell in their order.
 //! - Holes are not in the paper. A ring that is merged after all rings whose boxes hold its own surrounds
 //!   none that is there: rings whose cells are bounded by those of another one lie inside the hull of
 //!   that. So what is nearer to the new ring is bounded by one closed curve.
