@@ -62,6 +62,7 @@ impl Merge<'_, '_> {
         let mut first: Option<(Disk, Option<u32>, u32)> = None;
         let mut half = cursor;
         while half != NONE {
+            self.diagram.work.arcs += 1;
             let far = self.far(half, hand);
             let vertex = (far != APEX && far != INFINITE).then(|| self.vertex(far));
             let place = |disk: Option<&Disk>| {

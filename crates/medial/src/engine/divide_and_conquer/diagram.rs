@@ -2,6 +2,7 @@
 
 use super::disks::Disk;
 use super::elements::{Flank, Member};
+use super::work::Work;
 
 /// No arc.
 pub(super) const NONE: u32 = u32::MAX;
@@ -31,6 +32,8 @@ pub(super) struct Diagram {
     pub vertices: Vec<Disk>,
     /// The first and the last arc around each cell.
     pub ends: Vec<[u32; 2]>,
+    /// What it took so far.
+    pub work: Work,
 }
 
 impl Diagram {
@@ -42,6 +45,7 @@ impl Diagram {
             halves: Vec::with_capacity(24 * n),
             vertices: Vec::with_capacity(6 * n),
             ends: vec![[NONE; 2]; 4 * n],
+            work: Work::default(),
         };
         for edge in 0..n_edges {
             let [left, right] = [Flank::Left, Flank::Right].map(|f| Member::side(edge, f));

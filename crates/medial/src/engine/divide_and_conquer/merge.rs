@@ -216,6 +216,7 @@ impl<'m, 'a> Merge<'m, 'a> {
         let most = 16 * self.diagram.ends.len() + 64;
         for _ in 0..most {
             self.watch.check()?;
+            self.diagram.work.pieces += 1;
             let (to_left, to_right) = if closing.is_some() {
                 self.look_around(curve)
             } else {

@@ -73,6 +73,9 @@ mod look;
 mod merge;
 mod rings;
 mod touches;
+mod work;
+
+pub use work::Work;
 
 use super::watch::Watch;
 use super::{EngineError, Options};
@@ -101,6 +104,32 @@ pub fn divide_and_conquer_with(
     domain: &Domain,
     options: &Options<'_>,
 ) -> Result<MedialAxis, EngineError> {
+    run(domain, options).map(|(axis, _)| axis)
+}
+
+/// The same, with the work that its merges took.
+///
+/// # Errors
+/// As [`divide_and_conquer`].
+///
+/// ```
+/// use medial::domain::{Domain, Options};
+/// use medial::engine::divide_and_conquer_counted;
+/// use medial::geom::Point;
+/// // Two chains of two edges are merged from two of one, and with both ends to a square; the last
+/// // curve has two pieces inside, from corner to corner through the centre.
+/// let square = [(0.0, 0.0), (2.0, 0.0), (2.0, 2.0), (0.0, 2.0)].map(|(x, y)| Point::new(x, y));
+/// let domain = Domain::from_polygons(&[vec![square.to_vec()]], &Options::default())?;
+/// let (axis, work) = divide_and_conquer_counted(&domain)?;
+/// assert_eq!(axis.paths().len(), 4);
+/// assert!(work.pieces >= 2 && work.arcs >= work.pieces && work.starts == 0);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn divide_and_conquer_counted(domain: &Domain) -> Result<(MedialAxis, Work), EngineError> {
+    run(domain, &Options::default())
+}
+
+fn run(domain: &Domain, options: &Options<'_>) -> Result<(MedialAxis, Work), EngineError> {
     let n_edges = domain.edges().len();
     // Four elements an edge, and some arcs for each.
     let n = u32::try_from(n_edges).ok().filter(|n| *n < u32::MAX / 64);
@@ -118,7 +147,7 @@ pub fn divide_and_conquer_with(
     if domain.walks().iter().any(|walk| walk.hole) {
         merge_rings(members, &mut diagram, &watch)?;
     }
-    extract::axis(members, &diagram, &watch)
+    Ok((extract::axis(members, &diagram, &watch)?, diagram.work))
 }
 
 /// Merges the edges of a simple ring, chains of one length two at a time [Lee82, Fig. 8].
@@ -178,5 +207,6 @@ fn merge_rings(
         }
         merged.add(k);
     }
+    diagram.work.starts = merged.looked();
     Ok(())
 }
