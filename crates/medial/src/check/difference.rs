@@ -78,7 +78,15 @@ pub fn difference(reference: &MedialAxis, axis: &MedialAxis) -> Difference {
     let (ours, theirs) =
         (lines(axis, &sites[0], &lists[0]), lines(reference, &sites[1], &lists[1]));
     let lines = numbered(&ours, &theirs);
-    let (keypoints, paths) = (paired(&lists), paired(&lines));
+    let middles = |axis: &MedialAxis| -> Vec<Point> {
+        let at = |k: u32| axis.keypoints().at(k).position;
+        axis.paths().iter().map(|path| (at(path.from) + at(path.to)) * 0.5).collect()
+    };
+    let places = |axis: &MedialAxis| -> Vec<Point> {
+        axis.keypoints().iter().map(|keypoint| keypoint.position).collect()
+    };
+    let keypoints = paired(&lists, &[places(axis), places(reference)]);
+    let paths = paired(&lines, &[middles(axis), middles(reference)]);
     let mut difference = Difference {
         extra_keypoints: unpaired(&keypoints.ours),
         missing_keypoints: unpaired(&keypoints.theirs),
@@ -127,14 +135,22 @@ struct Pairs {
 }
 
 /// Pairs items with equal numbers, each with one.
-fn paired([ours, theirs]: &[Vec<u32>; 2]) -> Pairs {
-    let sorted = |numbers: &[u32]| {
+///
+/// Where several items of a list have one number, as the two ends of a bisector that is clipped on
+/// both sides, they are taken in the order of their places.
+fn paired([ours, theirs]: &[Vec<u32>; 2], places: &[Vec<Point>; 2]) -> Pairs {
+    let sorted = |numbers: &[u32], places: &[Point]| {
         let mut order: Vec<u32> = (0..numbers.len() as u32).collect();
-        order.sort_unstable_by_key(|&k| (numbers[k as usize], k));
+        order.sort_unstable_by(|&a, &b| {
+            let (a, b) = (a as usize, b as usize);
+            let (p, q) = (places[a], places[b]);
+            let by_place = || p.x.total_cmp(&q.x).then(p.y.total_cmp(&q.y));
+            numbers[a].cmp(&numbers[b]).then_with(by_place).then(a.cmp(&b))
+        });
         order
     };
     let mut pairs = Pairs { ours: vec![None; ours.len()], theirs: vec![None; theirs.len()] };
-    let (left, right) = (sorted(ours), sorted(theirs));
+    let (left, right) = (sorted(ours, &places[0]), sorted(theirs, &places[1]));
     let (mut i, mut j) = (0, 0);
     while let (Some(&a), Some(&b)) = (left.get(i), right.get(j)) {
         let order = ours[a as usize].cmp(&theirs[b as usize]);
