@@ -43,10 +43,15 @@ def cargo(folder, *words):
     return target(folder)
 
 
-def programs(rivals):
-    """The command of medial, of `layers` and of each rival, by name."""
-    folder = cargo(BENCH, "--workspace")
-    commands = {"medial": [folder / "medial-bench"], "layers": [folder / "layers"]}
+def programs(rivals, files):
+    """The command of medial, of its other engine and of each rival, by name; with `files` of `layers`."""
+    packages = ["medial-bench"]
+    packages += ["medial-bench-layers"] if files else []
+    packages += ["medial-bench-rivals"] if set(rivals) - set(CPP) else []
+    folder = cargo(BENCH, *(word for name in packages for word in ("-p", name)))
+    medial = folder / "medial-bench"
+    commands = {"medial": [medial], "divide_and_conquer": [medial, "time", "divide_and_conquer"]}
+    commands["layers"] = [folder / "layers"]
     for name in rivals:
         if name in CPP:
             commands[name] = [cpp(name, folder / name)]

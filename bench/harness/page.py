@@ -1,6 +1,7 @@
-"""The page that the comparison draws up."""
+"""The page that the comparison draws up, part by part."""
 
 import platform
+import re
 import sys
 
 from .build import PEERS
@@ -8,67 +9,92 @@ from .buildings import LAYER
 
 HEAD = """# Benchmarks
 
-`scripts/bench --data FOLDER --write docs/benchmarks.md` builds the programs of `bench/`, runs them by turns on the same polygons and draws up this page; `--quick` is shorter, `--shapes`, `--sizes`, `--rivals` and `--parts` choose.
+`scripts/bench --data FOLDER --write docs/benchmarks.md` builds the programs of `bench/`, runs them by turns on the same polygons and draws up this page; `--quick` is shorter, `--shapes`, `--sizes`, `--rivals` and `--parts` choose, and parts that are not chosen stay as they are.
 Times are medians of the processor time of one thread, in microseconds an edge; reading the input is not counted.
 Each process repeats its work for half a second, and three times at least unless that takes more than six seconds; the allocator of all of them is told to keep what they free (`GLIBC_TUNABLES`, in `bench/harness/run.py`).
 A busy machine moves them; ratios move less, because all programs take turns.
+`> N s` is a run that was stopped, or not begun because by its time an edge at the size before it would take half as much again, `crash` one that ended itself; larger sizes are not tried then, which `-` shows; where there is nothing, a program was not asked for that size.
 """
 
-ROUNDS = """This page: up to {rounds} rounds; a program that has spent {budget} seconds on an input skips the rounds left, so large inputs of slow programs were run once or twice.
-`> {limit} s` is a run that was stopped, or not begun because by its time an edge at the size before it would take half as much again, `crash` one that ended itself; larger sizes are not tried then, which `-` shows; where there is nothing, a program was not asked for that size.
+ROUNDS = """Up to {rounds} rounds of at most {limit} seconds; a program that has spent {budget} seconds on an input skips the rounds left, so large inputs of slow programs were run once or twice.
 """
 
-SHAPES = """
-## Shapes
+PROCESSOR = """Processor: {processor}.
 
-- *medial*: `Domain::from_polygons`, which validates, and `path_tracing`; *medial* is the sum, and *first* that of the first round of a process, which also fetches all its memory from the system. `bytes` is the growth of the peak of resident memory over both, an edge. `÷ at 1e4` is time an edge against that at 1e4 edges.
-- *boost*, *boostvoronoi*: Boost.Polygon and its Rust port: `construct_voronoi` of the edges, and the walk that drops what lies outside. They give both sides of the boundary, medial the inside; in general position they find as many paths, but for those inside the holes, which count for Boost too.
-- *cgal*: the same with CGAL's segment Delaunay graph, exact predicates, points sorted in space. It gives both sides.
-- *delaunator*, *spade*, *spade-cdt*: no axis at all, but the Delaunay triangulation of the corners, the last one constrained to the edges: what a fast geometric algorithm on as many points costs.
+"""
 
-Coordinates are whole numbers of 31 bits, but for `ngon` and `ellipse`, which are plain doubles; Boost and its port get those rounded, and so another polygon.
+SHAPES = """- *medial*: `Domain::from_polygons`, which validates, and `path_tracing`; *medial* is the sum, and *first* that of the first round of a process, which also fetches all its memory from the system. `bytes` is the growth of the peak of resident memory over both, an edge. `÷ at 1e4` is time an edge against that at 1e4 edges.
+- *divide_and_conquer*: that engine alone; *boost ÷ divide_and_conquer* counts validation too, as *boost ÷ medial* does.
+- *boost*: Boost.Polygon: `construct_voronoi` of the edges, and the walk that drops what lies outside. It gives both sides of the boundary, medial the inside; in general position it finds as many paths, but for those inside the holes, which count for Boost too.
+- *delaunator*: no axis at all, but the Delaunay triangulation of the corners: what a fast geometric algorithm on as many points costs.
+
+Coordinates are whole numbers of 31 bits, but for `ngon` and `ellipse`, which are plain doubles; Boost gets those rounded, and so another polygon.
 `star` has corners at equal angles and random distances, `koch` is a fractal coast with jittered thirds and heights, `maze` the outline of a random maze with jittered corners and `rmaze` without jitter, `comb` has equal teeth and `stair` equal steps, both parallel to the axes, `holes` and `holes3` are squares with a lattice of jittered holes of 12 and 3 corners, `lattice` one of equal squares, `ngon` is a regular polygon and `rngon` the same in whole numbers, `slivers` has long thin spikes around a disk, `spiral` is a corridor.
 
 """
 
-FILES = """
-## Real files
+RIVALS = """The same shapes and sizes, medial measured again among these:
 
-Whole layers, each feature a domain of its own; columns as above, *as given* is medial on the coordinates of the file.
+- *boostvoronoi*: the Rust port of Boost.Polygon, used in the same way.
+- *cgal*: CGAL's segment Delaunay graph, exact predicates, points sorted in space, and the walk that drops what lies outside. It gives both sides.
+- *spade*, *spade-cdt*: no axis at all, but the Delaunay triangulation of the corners, the second one constrained to the edges.
+
+"""
+
+FILES = """Whole layers, each feature a domain of its own; columns as for the shapes, *as given* is medial on the coordinates of the file.
 All others get whole numbers: each feature enlarged by a power of two, and shifted, to fill 31 bits, and rounded.
 Features that bound no domain are left out, and so are those where, after rounding, edges meet elsewhere than at ends, which Boost cannot take.
 
 """
 
-BUILDINGS = """
-## Buildings, file to file
-
-The buildings of `{layer}`, GeoJSON to GeoJSON, whole processes with start, reading and writing.
+BUILDINGS = """The buildings of `LAYER`, GeoJSON to GeoJSON, whole processes with start, reading and writing.
 medial writes every path of the exact axis with its radii and governors; the other two write approximate centerlines, which are much less.
 `pygeoops.centerline` with its default options drops short branches and simplifies; SFCGAL's approximate medial axis is a part of the straight skeleton.
-Both run in Python ({peers}); ratios are to the first line.
+Both run in Python (PEERS); ratios are to the first line.
+""".replace("LAYER", LAYER).replace("PEERS", ", ".join(PEERS))
 
-""".format(layer=LAYER, peers=", ".join(PEERS))
+
+# The parts of the page in their order: title, and what is said before the table.
+PARTS = {
+    "shapes": ("Shapes", SHAPES + ROUNDS + PROCESSOR),
+    "rivals": ("Slow rivals", RIVALS + ROUNDS + PROCESSOR),
+    "files": ("Real files", FILES + ROUNDS + PROCESSOR),
+    "buildings": ("Buildings, file to file", BUILDINGS + PROCESSOR),
+}
 
 
 class Page:
-    """Text that grows line by line, and the file it goes to."""
+    """The parts by title; those that are drawn up grow line by line, with the file they go to."""
 
     def __init__(self, options):
         self.path = options.write
-        self.text = HEAD + ROUNDS.format(**vars(options)) + machine()
+        self.values = vars(options) | {"processor": processor()}
+        there = self.path and self.path.exists()
+        self.parts = sections(self.path.read_text(encoding="utf-8")) if there else {}
 
-    def table(self, head, rows):
-        self.text += head
+    def table(self, part, rows):
+        title, head = PARTS[part]
+        self.parts[title] = head.format(**self.values)
         for cells in rows:
             print(" ".join(cells), file=sys.stderr, flush=True)
-            self.text += f"| {' | '.join(cells)} |\n"
+            self.parts[title] += f"| {' | '.join(cells)} |\n"
             if self.path:
-                self.path.write_text(self.text, encoding="utf-8")
+                self.path.write_text(self.text(), encoding="utf-8")
+
+    def text(self):
+        """The whole page."""
+        titles = [title for title, _ in PARTS.values() if title in self.parts]
+        return HEAD + "".join(f"\n## {title}\n\n{self.parts[title]}" for title in titles)
 
 
-def machine():
-    """One sentence on where this was measured."""
+def sections(text):
+    """The parts of a page by title."""
+    pieces = re.split(r"^## (.*)\n+", text, flags=re.MULTILINE)
+    return {title: part.rstrip() + "\n" for title, part in zip(pieces[1::2], pieces[2::2])}
+
+
+def processor():
+    """The processor that this is measured on."""
     model = platform.processor() or platform.machine()
     try:
         with open("/proc/cpuinfo", encoding="utf-8") as file:
@@ -76,4 +102,4 @@ def machine():
         model = names[0] if names else model
     except OSError:
         pass
-    return f"Processor: {model}.\n"
+    return model

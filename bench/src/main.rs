@@ -1,15 +1,15 @@
 //! Draws shapes for the comparison, and times medial on them.
 //!
-//! `medial-bench draw SHAPE EDGES` prints a shape, as `text` describes; `medial-bench time` reads
-//! shapes and prints one line, as `measure` describes, with the number of paths as what was found;
-//! `medial-bench axis SHAPE EDGES` computes the axis of a shape once, for counting instructions in
-//! `medial_bench_domain` and `medial_bench_engine`.
+//! `medial-bench draw SHAPE EDGES` prints a shape, as `text` describes; `medial-bench time [ENGINE]`
+//! reads shapes and prints one line, as `measure` describes, with the number of paths as what was
+//! found; `medial-bench axis SHAPE EDGES` computes the axis of a shape once, for counting
+//! instructions in `medial_bench_domain` and `medial_bench_engine`.
 
 use std::{env, hint};
 
-use medial::axis::MedialAxis;
+use medial::axis::{Engine, MedialAxis};
 use medial::domain::{Domain, DomainError, Options};
-use medial::engine::{EngineError, path_tracing};
+use medial::engine::{self, EngineError, interior};
 use medial::geom::Point;
 use medial_bench::measure::{Error, Work, report};
 use medial_bench::{shapes, text};
@@ -18,9 +18,10 @@ fn main() -> Result<(), Error> {
     let args: Vec<String> = env::args().skip(1).collect();
     match args.iter().map(String::as_str).collect::<Vec<_>>().as_slice() {
         ["draw", shape, edges] => draw(shape, edges.parse()?),
-        ["time"] => time(),
+        ["time"] => time(Engine::PathTracing),
+        ["time", engine] => time(engine.parse()?),
         ["axis", shape, edges] => axis(shape, edges.parse()?),
-        _ => Err("medial-bench draw SHAPE EDGES, time, or axis SHAPE EDGES".into()),
+        _ => Err("medial-bench draw or axis SHAPE EDGES, or time [ENGINE]".into()),
     }
 }
 
@@ -37,11 +38,11 @@ fn polygons(shape: &str, edges: usize) -> Result<text::Polygons, Error> {
     Ok(vec![rings.into_iter().map(ring).collect()])
 }
 
-fn time() -> Result<(), Error> {
+fn time(engine: Engine) -> Result<(), Error> {
     let work = Work {
         prepare: |polygons| polygons,
         first: |polygons: &text::Polygons| Ok(medial_bench_domain(polygons)?),
-        second: |domain: &mut Domain| Ok(medial_bench_engine(domain)?),
+        second: |domain: &mut Domain| Ok(medial_bench_engine(engine, domain)?),
         count: |_: &Domain, axis: &MedialAxis| axis.paths().len(),
     };
     report(&text::read()?, text::edges, &work)
@@ -51,7 +52,7 @@ fn time() -> Result<(), Error> {
 fn axis(shape: &str, edges: usize) -> Result<(), Error> {
     let polygons = polygons(shape, edges)?;
     let domain = medial_bench_domain(&polygons)?;
-    let axis = medial_bench_engine(&domain)?;
+    let axis = medial_bench_engine(Engine::PathTracing, &domain)?;
     println!("{} {}", text::edges(&polygons), axis.paths().len());
     hint::black_box(axis);
     Ok(())
@@ -67,6 +68,6 @@ fn medial_bench_domain(polygons: &text::Polygons) -> Result<Domain, DomainError>
 
 #[unsafe(no_mangle)]
 #[inline(never)]
-fn medial_bench_engine(domain: &Domain) -> Result<MedialAxis, EngineError> {
-    path_tracing(domain)
+fn medial_bench_engine(engine: Engine, domain: &Domain) -> Result<MedialAxis, EngineError> {
+    interior(domain, engine, &engine::Options::default())
 }

@@ -25,6 +25,8 @@ pub enum Command {
     Axis(AxisArgs),
     /// Find every defect of an axis document
     Check(CheckArgs),
+    /// Run every engine on the same polygons
+    Compare(CompareArgs),
 }
 
 const AXIS_HELP: &str = "\
@@ -56,14 +58,8 @@ pub struct AxisArgs {
     /// Who computes the axis: path_tracing, divide_and_conquer
     #[arg(long, value_name = "NAME", default_value = "path_tracing", value_parser = engine)]
     pub engine: Engine,
-    /// Side of the boundary: exterior is the complement of all polygons of a feature, holes included;
-    /// both writes two results for each feature, the interior first
-    #[arg(long, value_name = "SIDE", default_value = "interior")]
-    pub side: Sides,
-    /// How far from the box of a feature its exterior axis is cut off, in units of the input; by
-    /// default the longer side of the box
-    #[arg(long, value_name = "F", value_parser = positive, allow_negative_numbers = true)]
-    pub frame: Option<f64>,
+    #[command(flatten)]
+    pub region: Region,
     /// Largest distance between a curve and the polyline drawn for it, in units of the input; by
     /// default 1e-4 of the longer side of the feature's box
     #[arg(long, value_name = "T", value_parser = positive, allow_negative_numbers = true)]
@@ -106,6 +102,65 @@ pub struct CheckArgs {
     pub to: Form,
     #[command(flatten)]
     pub common: Common,
+}
+
+const COMPARE_HELP: &str = "\
+Features and engines take turns, so that times are those of an engine alone: on one thread, unless
+--threads gives it more. The first exact engine that gives an axis of a feature is the reference of
+the others.
+
+Examples:
+  medial compare fixtures/river.geojson --to text
+  medial compare fixtures/river.geojson -o river.csv --report report.json
+  medial compare fixtures/shapes/l_with_unit_arms.wkt --side both --to text
+  medial compare - --engine divide_and_conquer < fixtures/shapes/l_with_unit_arms.wkt
+
+Exit status: 0 all done; 1 no usable result; 2 wrong usage; 3 some features were left out.";
+
+/// Arguments of `medial compare`.
+#[derive(Debug, Args)]
+#[command(after_help = COMPARE_HELP)]
+pub struct CompareArgs {
+    /// Polygons: GeoJSON, GeoJSON lines, WKT, WKB or rings; `-` for standard input
+    pub input: PathBuf,
+    /// File to write; by default, and for `-`, standard output
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<PathBuf>,
+    /// Form of the result, a row for each feature, side and engine: json (lines), csv, or text for
+    /// people; by default that of the extension (.csv, .txt), else json
+    #[arg(long, value_name = "FORM")]
+    pub to: Option<Rows>,
+    /// Engines to compare, separated by commas; by default all: path_tracing, divide_and_conquer
+    #[arg(long, value_name = "NAMES", value_delimiter = ',', value_parser = engine,
+          default_values_t = Engine::ALL.to_vec(), hide_default_value = true)]
+    pub engine: Vec<Engine>,
+    #[command(flatten)]
+    pub region: Region,
+    #[command(flatten)]
+    pub common: Common,
+}
+
+/// Where axes are computed.
+#[derive(Debug, Args)]
+pub struct Region {
+    /// Side of the boundary: exterior is the complement of all polygons of a feature, holes included;
+    /// both writes two results for each feature, the interior first
+    #[arg(long, value_name = "SIDE", default_value = "interior")]
+    pub side: Sides,
+    /// How far from the box of a feature its exterior axis is cut off, in units of the input; by
+    /// default the longer side of the box
+    #[arg(long, value_name = "F", value_parser = positive, allow_negative_numbers = true)]
+    pub frame: Option<f64>,
+}
+
+impl Region {
+    /// Fails if a frame is given that nothing is cut at.
+    pub fn check(&self) -> Result<(), Failure> {
+        if self.frame.is_some() && self.side == Sides::Interior {
+            return Err(Failure::Usage("--frame is for --side exterior and both".to_owned()));
+        }
+        Ok(())
+    }
 }
 
 /// Arguments of every command that reads polygons.
@@ -172,6 +227,14 @@ pub enum Height {
 pub enum Form {
     Text,
     Json,
+}
+
+/// A table for programs or for people.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Rows {
+    Json,
+    Csv,
+    Text,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]

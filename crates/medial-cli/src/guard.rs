@@ -28,9 +28,9 @@ pub fn caught<T>(work: impl FnOnce() -> T) -> Result<T, ()> {
 
 /// The result of `work`, or what to say of its panic.
 pub fn guarded<T>(work: impl FnOnce() -> T) -> Result<T, String> {
-    GUARDED.set(true);
+    let outer = GUARDED.replace(true);
     let result = panic::catch_unwind(AssertUnwindSafe(work));
-    GUARDED.set(false);
+    GUARDED.set(outer);
     result.map_err(|_| asking(&LAST.take()))
 }
 

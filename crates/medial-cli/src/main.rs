@@ -4,6 +4,7 @@
 
 mod args;
 mod commands;
+mod comparison;
 mod failure;
 mod guard;
 mod input;
@@ -31,5 +32,6 @@ fn run() -> Result<Status, Failure> {
     match args::parse()? {
         Command::Axis(args) => commands::axis::run(&args),
         Command::Check(args) => commands::check::run(&args),
+        Command::Compare(args) => commands::compare::run(&args),
     }
 }

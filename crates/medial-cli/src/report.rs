@@ -1,4 +1,5 @@
 use medial::domain::{DomainError, Repair, Report as Repairs};
+use medial::engine::EngineError;
 use medial_io::{Json, Note};
 use serde::Serialize;
 
@@ -26,7 +27,7 @@ pub struct FeatureReport {
 }
 
 /// One thing that was done, with a reason code from a closed list.
-#[derive(Serialize)]
+#[derive(Clone, Serialize)]
 pub struct Entry {
     pub action: Action,
     pub code: &'static str,
@@ -77,6 +78,18 @@ impl Entry {
             indices: error.index().into_iter().collect(),
             ..Self::refused(error.code(), error.to_string())
         }
+    }
+
+    /// The engine gave no axis.
+    pub fn unfinished(error: &EngineError) -> Self {
+        let code = match error {
+            EngineError::TooLarge { .. } => "too_large",
+            EngineError::Frame { .. } => "frame",
+            EngineError::Cancelled => "cancelled",
+            EngineError::TimeLimit => "time_limit",
+            _ => "internal",
+        };
+        Self::refused(code, error.to_string())
     }
 
     /// Reading left something out or took it for something else.

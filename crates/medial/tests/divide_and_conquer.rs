@@ -11,13 +11,19 @@ use medial::geom::Point;
 use support::random::{self, Family, Ground, Random};
 use support::{compare, shapes};
 
+/// Shapes that are drawn for each one that is wanted, at most.
+const PATIENCE: usize = 100;
+
 /// Tries this many random shapes with at most `most` edges, each as it is or off by a hair.
 fn random_shapes(family: Family, ground: Ground, most: u64, seed: u64, count: usize) {
     let mut random = Random(seed);
     let options = Options { regroup: true, ..Options::default() };
     let mut failures = Vec::new();
     let mut tried = 0;
-    while tried < count {
+    for _ in 0..PATIENCE * count {
+        if tried == count {
+            break;
+        }
         let mut polygons = random::large_shape(&mut random, family, ground, most);
         if random.below(3) == 0 {
             polygons = random::off_by_a_hair(&mut random, &polygons);
@@ -39,6 +45,7 @@ fn random_shapes(family: Family, ground: Ground, most: u64, seed: u64, count: us
         }
     }
     assert!(failures.is_empty(), "{failures:#?}");
+    assert_eq!(tried, count, "too few shapes are valid");
 }
 
 #[test]

@@ -3,7 +3,7 @@
 mod support;
 
 use medial::axis::{Accuracy, KeypointKind, Path, SiteKind};
-use medial::check::{self, Defect, LeftOut};
+use medial::check::{self, Defect, LeftOut, Relation};
 use medial::domain::Domain;
 use medial::geom::Point;
 use support::parts::{Keypoint, Parts};
@@ -160,23 +160,80 @@ fn a_site_listed_twice_is_reported() {
     assert_found!(defects, Defect::IdleSite { site: 3, .. });
 }
 
+/// Cuts a path in two with a keypoint in the middle where nothing changes; gives its number.
+fn split(parts: &mut Parts, path: usize) -> u32 {
+    let middle = parts.keypoints.len() as u32;
+    let line = parts.paths[path];
+    let curve = parts.axis().curve(&line);
+    parts.keypoints.push(Keypoint {
+        position: curve.point_at(0.5),
+        radius: curve.radius_at(0.5),
+        kind: KeypointKind::Transition,
+        governors: vec![line.left.min(line.right), line.left.max(line.right)],
+    });
+    parts.paths[path].to = middle;
+    parts.paths.push(Path { from: middle, ..line });
+    middle
+}
+
 #[test]
 fn a_transition_where_nothing_changes_is_fake() {
     let (domain, mut parts) = parts("rectangle_5_by_2");
     let (a, b) = (parts.at(1.0, 1.0), parts.at(4.0, 1.0));
     let path = parts.between(a, b);
-    let middle = parts.keypoints.len() as u32;
-    let line = parts.paths[path];
-    parts.keypoints.push(Keypoint {
-        position: Point::new(2.5, 1.0),
-        radius: 1.0,
-        kind: KeypointKind::Transition,
-        governors: vec![line.left, line.right],
-    });
-    parts.paths[path].to = middle;
-    parts.paths.push(Path { from: middle, ..line });
+    let middle = split(&mut parts, path);
     assert_found!(judge(&domain, &parts), Defect::FakeTransition { keypoint, .. }
         if *keypoint == middle);
+}
+
+/// Name, bound and finding of each bound that is exceeded.
+fn excesses(defects: &[Defect]) -> Vec<(&'static str, f64, f64)> {
+    let excess = |defect: &Defect| match defect {
+        Defect::Identity(i) if i.relation == Relation::AtMost => {
+            Some((i.name, i.expected, i.found))
+        }
+        _ => None,
+    };
+    defects.iter().filter_map(excess).collect()
+}
+
+#[test]
+fn more_voronoi_points_and_edges_than_lemma_3_allows_are_found() {
+    // n edges, m reflex corners, h holes: n + m - 2 + 2h points and 2(n + m) - 3 + 3h edges.
+    for (name, points, edges) in [
+        ("triangle_3_4_5", 1.0, 3.0),
+        ("rectangle_5_by_2", 2.0, 5.0),
+        ("l_with_unit_arms", 5.0, 11.0),
+        ("square_ring_6_around_2", 12.0, 24.0),
+    ] {
+        let (domain, mut parts) = parts(name);
+        let verdict = check::defects(&domain, &parts.axis());
+        let found = |name| verdict.identities.iter().find(|i| i.name == name).map(|i| i.found);
+        // No keypoint here has more than three governors, so the bounds are met.
+        assert_eq!(found("inner keypoints"), Some(points), "{name}");
+        assert_eq!(found("Voronoi edges"), Some(edges), "{name}");
+        split(&mut parts, 0);
+        let expected =
+            [("inner keypoints", points, points + 1.0), ("Voronoi edges", edges, edges + 1.0)];
+        assert_eq!(excesses(&judge(&domain, &parts)), expected, "{name}");
+    }
+}
+
+#[test]
+fn a_path_given_twice_is_one_voronoi_edge_too_many() {
+    let (domain, mut parts) = parts("l_with_unit_arms");
+    parts.paths.push(parts.paths[0]);
+    assert_eq!(excesses(&judge(&domain, &parts)), [("Voronoi edges", 11.0, 12.0)]);
+}
+
+#[test]
+fn keypoints_of_more_governors_leave_room_below_the_bounds() {
+    // Two points of three governors in one of four: one point and one edge fewer.
+    let domain = shapes::domain("square_of_side_2");
+    let verdict = check::defects(&domain, &brute_force::axis(&domain));
+    let bounds = verdict.identities.iter().filter(|i| i.relation == Relation::AtMost);
+    let told: Vec<_> = bounds.map(|i| (i.name, i.expected, i.found)).collect();
+    assert_eq!(told, [("inner keypoints", 2.0, 1.0), ("Voronoi edges", 5.0, 4.0)]);
 }
 
 #[test]

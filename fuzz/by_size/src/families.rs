@@ -52,8 +52,17 @@ const fn here(
     Family { name, most, ground, draw: Draw::Here(draw) }
 }
 
+/// The family whose corners lie on a grid a few units wide, so that nearly everything ties.
+pub const TINY_GRID: &str = "tiny_grid";
+
+/// The families whose shapes have holes, most of them many.
+pub const HOLED: [&str; 10] = [
+    "holes", "holes3", "lattice", "rooms", "octagons", "circles", "crowd", "scales", "tangles",
+    "hidden",
+];
+
 /// All families.
-pub const FAMILIES: [Family; 37] = [
+pub const FAMILIES: [Family; 38] = [
     bench("star", Ground::Doubles, ANY),
     bench("koch", Ground::Doubles, ANY),
     bench("maze", Ground::Doubles, ANY),
@@ -89,6 +98,7 @@ pub const FAMILIES: [Family; 37] = [
     here("zigzag", Ground::Whole, ANY, chains::zigzag),
     here("tangle", Ground::Doubles, 1_000, tangles::tangle),
     here("grid_tangle", Ground::Whole, 200, tangles::grid_tangle),
+    here(TINY_GRID, Ground::Exact, ANY, tangles::tiny_grid),
     here("tangles", Ground::Doubles, ANY, tangles::tangles),
     here("hidden", Ground::Exact, ANY, tangles::hidden),
 ];

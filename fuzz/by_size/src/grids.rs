@@ -9,12 +9,12 @@ use medial_bench::shapes::Random;
 use super::{Polygons, Ring};
 
 /// Cells along each side, for that many edges a cell.
-fn side(edges: usize, per_cell: usize) -> usize {
+pub fn side(edges: usize, per_cell: usize) -> usize {
     ((edges as f64 / per_cell as f64).sqrt().round() as usize).max(1)
 }
 
 /// A box around `side` times `side` cells of a width, with a hole in each.
-fn framed(side: usize, width: f64, mut hole: impl FnMut(Point) -> Option<Ring>) -> Polygons {
+pub fn framed(side: usize, width: f64, mut hole: impl FnMut(Point) -> Option<Ring>) -> Polygons {
     let end = side as f64 * width;
     let frame = [(0.0, 0.0), (end, 0.0), (end, end), (0.0, end)];
     let mut rings: Vec<Ring> = vec![frame.map(|(x, y)| Point::new(x, y)).to_vec()];

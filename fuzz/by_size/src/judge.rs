@@ -6,7 +6,7 @@ use std::sync::Mutex;
 use std::time::{Duration, Instant};
 
 use cpu_time::ThreadTime;
-use medial::axis::{Accuracy, MedialAxis};
+use medial::axis::{Accuracy, Engine, MedialAxis};
 use medial::check;
 use medial::domain::{Domain, DomainError, Options};
 use medial::engine::{self, path_tracing, path_tracing_with};
@@ -23,8 +23,8 @@ pub struct Shape {
 
 /// What came of a shape.
 pub enum Outcome {
-    /// It is no valid domain.
-    Refused(DomainError),
+    /// It is no valid domain: a reason code and what was said.
+    Refused(&'static str, String),
     Fine(Times),
     /// Domain, engine or judge say or show that something is wrong.
     Find(String),
@@ -36,6 +36,8 @@ pub struct Times {
     pub edges: usize,
     pub domain: Duration,
     pub engine: Duration,
+    /// The engine that it is compared with.
+    pub other: Duration,
     pub judge: Duration,
 }
 
@@ -107,15 +109,23 @@ pub struct Comparison {
     pub threads: Option<NonZeroUsize>,
     /// The axis of an image of it.
     pub image: Option<Image>,
+    /// The axis that another engine gives, which is judged too.
+    pub engine: Option<Engine>,
 }
 
 /// Judges the axis of a shape, and compares it.
 pub fn judge(shape: &Shape, with: Comparison) -> Outcome {
     guarded(|| {
-        let (axis, times) = match judged(shape) {
+        let (axis, mut times) = match judged(shape) {
             Ok(judged) => judged,
             Err(outcome) => return outcome,
         };
+        if let Some(engine) = with.engine {
+            match compared(shape, &axis, engine) {
+                Ok(time) => times.other = time,
+                Err(outcome) => return outcome,
+            }
+        }
         if let Some(threads) = with.threads
             && let Some(fault) = shared_fault(shape, &axis, threads)
         {
@@ -124,7 +134,9 @@ pub fn judge(shape: &Shape, with: Comparison) -> Outcome {
         let Some(image) = with.image else { return Outcome::Fine(times) };
         let moved = Shape { polygons: image.of(&shape.polygons), regroup: shape.regroup };
         match judged(&moved) {
-            Err(Outcome::Refused(error)) => Outcome::Find(format!("{image:?}: refused: {error}")),
+            Err(Outcome::Refused(_, error)) => {
+                Outcome::Find(format!("{image:?}: refused: {error}"))
+            }
             Err(Outcome::Find(text)) => Outcome::Find(format!("{image:?}: {text}")),
             Err(fine) => fine,
             Ok((other, _)) if graph(&axis) == graph(&other) => Outcome::Fine(times),
@@ -195,7 +207,7 @@ fn judged(shape: &Shape) -> Result<(MedialAxis, Times), Outcome> {
     let domain = match build(shape) {
         Ok(domain) => domain,
         Err(error @ DomainError::Internal { .. }) => return Err(Outcome::Find(error.to_string())),
-        Err(error) => return Err(Outcome::Refused(error)),
+        Err(error) => return Err(Outcome::Refused(error.code(), error.to_string())),
     };
     let mut times = Times { edges: domain.edges().len(), ..Times::default() };
     times.domain = start.elapsed();
@@ -211,16 +223,50 @@ fn judged(shape: &Shape) -> Result<(MedialAxis, Times), Outcome> {
     }
     enter("judge");
     let start = ThreadTime::now();
-    let verdict = check::defects(&domain, &axis);
+    let defects = defects(&domain, &axis);
     times.judge = start.elapsed();
+    if let Some(told) = defects { Err(Outcome::Find(told)) } else { Ok((axis, times)) }
+}
+
+/// What the judge says of an axis, if anything.
+fn defects(domain: &Domain, axis: &MedialAxis) -> Option<String> {
+    let verdict = check::defects(domain, axis);
     let told: Vec<String> = verdict.defects.iter().take(5).map(ToString::to_string).collect();
     if !told.is_empty() {
-        return Err(Outcome::Find(told.join("\n")));
+        return Some(told.join("\n"));
     }
-    if !verdict.left_out.is_empty() || verdict.identities.is_empty() {
-        return Err(Outcome::Find(format!("the judge left out {:?}", verdict.left_out)));
+    let all = verdict.left_out.is_empty() && !verdict.identities.is_empty();
+    (!all).then(|| format!("the judge left out {:?}", verdict.left_out))
+}
+
+/// The time of another engine, if it gives the same axis and the judge finds nothing in that.
+fn compared(shape: &Shape, axis: &MedialAxis, engine: Engine) -> Result<Duration, Outcome> {
+    let find = |text: String| Outcome::Find(format!("{engine}: {text}"));
+    let domain = build(shape).map_err(|error| find(error.to_string()))?;
+    enter("the other engine");
+    let start = ThreadTime::now();
+    let deadline = Some(Instant::now() + LIMIT);
+    let options = engine::Options { deadline, ..Default::default() };
+    let other = match engine::interior(&domain, engine, &options) {
+        Ok(other) => other,
+        Err(why) => return Err(find(why.to_string())),
+    };
+    let time = start.elapsed();
+    enter("the judge of the other engine");
+    if let Some(told) = defects(&domain, &other) {
+        return Err(find(told));
     }
-    Ok((axis, times))
+    enter("comparing");
+    let difference = check::difference(axis, &other);
+    let size = axis.bounds().map_or(0.0, |(low, high)| (high - low).norm() + low.norm());
+    if !difference.is_same_graph() {
+        return Err(find(format!("another graph: {difference:?}")));
+    }
+    // Either is within 4 units in the last place of the exact one, so they are within 8.
+    if difference.position > 8.0 * f64::EPSILON * size {
+        return Err(find(format!("other places: {difference:?}")));
+    }
+    Ok(time)
 }
 
 /// Numbers that any labelling of a graph has in common: governors of all keypoints by degree.

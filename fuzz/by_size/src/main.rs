@@ -1,6 +1,7 @@
 //! Fuzzing by size: shapes of many families, with 10 to 100,000 edges, each judged in full.
 //!
-//! Every shape is known by its family, size and seed; `--replay` draws it again.
+//! Every shape is known by its family, size and seed; `--replay` draws it again. With `--engine`
+//! the axis of another engine is judged as well, and compared.
 
 mod chains;
 mod families;
@@ -21,10 +22,11 @@ use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 use std::{env, fs, process, thread};
 
+use medial::axis::Engine;
 use medial::geom::Point;
 use medial_bench::shapes::Random;
 
-use families::{FAMILIES, Family, Ground};
+use families::{FAMILIES, Family, Ground, HOLED, TINY_GRID};
 use judge::{Comparison, Image, Outcome, Shape};
 use tell::Summary;
 
@@ -34,11 +36,13 @@ type Ring = Vec<Point>;
 /// Polygons of a feature, each a list of rings, the outer one first.
 type Polygons = Vec<Vec<Ring>>;
 
-const USAGE: &str = "usage: fuzz-by-size [--minutes M] [--seed S] [--family F] [--least EDGES] \
-[--most EDGES] [--finds DIR] [--replay \"FAMILY EDGES SEED\"]
+const USAGE: &str = "usage: fuzz-by-size [--minutes M] [--seed S] [--engine E] [--family F] \
+[--least EDGES] [--most EDGES] [--finds DIR] [--replay \"FAMILY EDGES SEED\"]
 
-Draws shapes until the time is up (10 minutes unless told) and prints what is found. The exit
-status is 1 if a shape has a defect, an error, a panic or no end; slow shapes are only told.";
+Draws shapes until the time is up (10 minutes unless told) and prints what is found. With --engine
+this engine must give the same axis as path_tracing, on 4 to 10,000 edges unless told: a third of the
+shapes on a tiny grid, a third with holes. The exit status is 1 if a shape has a defect, an error, a
+panic, no end or two axes; slow shapes are only told.";
 
 /// Time of the engine beyond which a shape is told as slow: a part for each edge and a fixed part.
 const SLOW: (Duration, Duration) = (Duration::from_micros(30), Duration::from_millis(200));
@@ -55,6 +59,8 @@ const COMPARED: usize = 5_000;
 struct Options {
     time: Duration,
     seed: u64,
+    /// Compared with `path_tracing`.
+    engine: Option<Engine>,
     family: Option<String>,
     sizes: (usize, usize),
     finds: PathBuf,
@@ -112,11 +118,13 @@ fn options() -> Result<Options, String> {
     let mut options = Options {
         time: Duration::from_secs(600),
         seed: now as u64 % 1_000_000_000_000,
+        engine: None,
         family: None,
-        sizes: (10, 100_000),
+        sizes: (0, 0),
         finds: env::temp_dir().join("medial-finds"),
         replay: None,
     };
+    let (mut least, mut most) = (None, None);
     let mut words = env::args().skip(1);
     while let Some(word) = words.next() {
         let value = words.next().ok_or(format!("{word}: no value"))?;
@@ -129,9 +137,10 @@ fn options() -> Result<Options, String> {
                     Duration::try_from_secs_f64(60.0 * minutes).map_err(|e| e.to_string())?;
             }
             "--seed" => options.seed = value.parse().map_err(wrong)?,
+            "--engine" => options.engine = Some(value.parse().map_err(|e| format!("{word}: {e}"))?),
             "--family" => options.family = Some(known(&value)?.name.into()),
-            "--least" => options.sizes.0 = value.parse().map_err(wrong)?,
-            "--most" => options.sizes.1 = value.parse().map_err(wrong)?,
+            "--least" => least = Some(value.parse().map_err(wrong)?),
+            "--most" => most = Some(value.parse().map_err(wrong)?),
             "--finds" => options.finds = value.into(),
             "--replay" => {
                 let [family, edges, seed] = value.split_whitespace().collect::<Vec<_>>()[..] else {
@@ -146,7 +155,9 @@ fn options() -> Result<Options, String> {
             _ => return Err(format!("{word}: no such option")),
         }
     }
-    let (least, most) = options.sizes;
+    let usual = if options.engine.is_some() { (4, 10_000) } else { (10, 100_000) };
+    let (least, most) = (least.unwrap_or(usual.0), most.unwrap_or(usual.1));
+    options.sizes = (least, most);
     if least < 3 || most < least {
         return Err(format!("sizes from {least} to {most}"));
     }
@@ -163,10 +174,14 @@ fn known(name: &str) -> Result<&'static Family, String> {
 
 /// Any family, and a size whose logarithm is anywhere.
 fn next(random: &mut Random, options: &Options) -> Drawing {
-    let family = match &options.family {
-        Some(name) => FAMILIES.iter().find(|family| family.name == name),
-        None => None,
+    let name = match (&options.family, options.engine) {
+        (Some(name), _) => Some(name.as_str()),
+        (None, Some(_)) => {
+            [Some(TINY_GRID), Some(HOLED[random.below(HOLED.len())]), None][random.below(3)]
+        }
+        (None, None) => None,
     };
+    let family = name.and_then(|name| FAMILIES.iter().find(|family| family.name == name));
     let family = family.unwrap_or(&FAMILIES[random.below(FAMILIES.len())]);
     let (least, most) = options.sizes;
     let most = most.min(family.most).max(least);
@@ -195,6 +210,12 @@ fn one(drawing: &Drawing, options: &Options, running: &Running, summary: &mut Su
     let with = Comparison {
         image: (drawing.edges <= COMPARED && random.below(2) == 0).then_some(image),
         threads: NonZeroUsize::new([0, 0, 2, 3, 4, 8][random.below(6)]),
+        engine: None,
+    };
+    // What is compared with another engine is compared with nothing else.
+    let with = match options.engine {
+        Some(_) => Comparison { engine: options.engine, ..Comparison::default() },
+        None => with,
     };
     let outcome = judge::judge(&shape, with);
     if let Ok(mut running) = running.lock() {
@@ -234,10 +255,10 @@ fn one(drawing: &Drawing, options: &Options, running: &Running, summary: &mut Su
                 keep(&file("slow"), &sketch::to_wkt(&shape.polygons));
             }
         }
-        Outcome::Refused(error) if options.replay.is_some() => {
+        Outcome::Refused(_, error) if options.replay.is_some() => {
             println!("refused {name}: {pose}: {error}")
         }
-        Outcome::Refused(_) => {}
+        Outcome::Refused(..) => {}
     }
 }
 

@@ -2,9 +2,11 @@
 
 use std::f64::consts::TAU;
 
+use medial::domain::{Domain, Options};
 use medial::geom::{Point, orient2d};
 use medial_bench::shapes::Random;
 
+use super::grids::{framed, side};
 use super::{Polygons, Ring};
 
 /// Points of the unit square, untangled.
@@ -21,6 +23,36 @@ pub fn grid_tangle(random: &mut Random, edges: usize) -> Polygons {
     let mut ring: Ring = (0..edges.max(3)).map(|_| whole()).collect();
     untangle(&mut ring);
     vec![vec![ring]]
+}
+
+/// Points of a grid a few units wide, untangled: one ring with or without holes, or where that has
+/// no room for the edges, a box with a small ring in each cell of a lattice.
+pub fn tiny_grid(random: &mut Random, edges: usize) -> Polygons {
+    let size = 2 + random.below(9);
+    let ring = |random: &mut Random, corners: usize| -> Ring {
+        let mut whole = || random.below(size + 1) as f64;
+        let mut ring: Ring = (0..corners).map(|_| Point::new(whole(), whole())).collect();
+        untangle(&mut ring);
+        ring
+    };
+    if edges <= 4 * size {
+        let holes = random.below(1 + edges / 6);
+        let mut rings = vec![ring(random, edges.saturating_sub(3 * holes).max(3))];
+        rings.extend((0..holes).map(|k| ring(random, 3 + k % 2)));
+        return vec![rings];
+    }
+    let each = 3 + random.below(6);
+    let width = 2.0 * (size + 2) as f64;
+    framed(side(edges, each), width, |middle| {
+        let twice = |ring: Ring| -> Ring { ring.into_iter().map(|p| p * 2.0).collect() };
+        let tried = (0..8).map(|_| ring(random, each)).find(bounds_a_domain);
+        let corner = middle - Point::new(width, width) * 0.5 + Point::new(1.0, 1.0);
+        tried.map(|ring| twice(ring).into_iter().map(|p| corner + p).collect())
+    })
+}
+
+fn bounds_a_domain(ring: &Ring) -> bool {
+    Domain::from_polygons(&[vec![ring.clone()]], &Options::default()).is_ok()
 }
 
 /// A box with a tangle in each cell of a lattice.

@@ -1,11 +1,11 @@
 use super::features::{Run, layer};
 use super::sink::{Sink, encode};
-use crate::args::{AxisArgs, Height, Sides};
+use crate::args::{AxisArgs, Height, Region, Sides};
 use crate::failure::{Failure, Status};
 use crate::input::Input;
 use crate::report::Entry;
 use crate::timings::timed;
-use medial::axis::{MedialAxis, Side};
+use medial::axis::{Engine, MedialAxis, Side};
 use medial::domain::Domain;
 use medial::engine::{self, EngineError, exterior, interior};
 use medial_io::svg::Options;
@@ -14,13 +14,14 @@ use std::io::IsTerminal as _;
 
 /// `medial axis`.
 pub fn run(args: &AxisArgs) -> Result<Status, Failure> {
+    args.region.check()?;
     let mut run = Run::new(&args.common)?;
     let format = output_format(args)?;
     let drawing = Drawing {
         tolerance: args.tolerance,
         radius_as_z: args.z == Some(Height::Radius),
         keypoints: args.keypoints,
-        side: args.side != Sides::Interior,
+        side: args.region.side != Sides::Interior,
     };
     let input = timed(&mut run.stages.read, || Input::read(&args.input))?;
     let layer = timed(&mut run.stages.read, || layer(&input, &args.input, &args.common))?;
@@ -29,15 +30,16 @@ pub fn run(args: &AxisArgs) -> Result<Status, Failure> {
     let mut sink = Sink::create(args.output.as_deref(), format, drawing, crs, picture)?;
     let mut scenes = Vec::new();
     let mut write = std::time::Duration::ZERO;
-    let (_, threads) = run.threads(&layer);
+    let (at_once, threads) = run.threads(&layer);
     let options = engine::Options { threads, ..engine::Options::default() };
     let status = run.each(
         &input,
         layer,
+        at_once,
         |feature, domain, stages, bytes| {
             // All that is asked of a feature, or nothing.
             let axes = timed(&mut stages.engine, || trace(args, domain, &options))
-                .map_err(|error| Entry::refused(code(&error), error.to_string()))?;
+                .map_err(|error| Entry::unfinished(&error))?;
             Ok(timed(&mut stages.write, || encode(format, drawing, feature, domain, axes, bytes)))
         },
         |drawn| scenes.extend(drawn),
@@ -57,20 +59,21 @@ fn trace(
     domain: &Domain,
     options: &engine::Options<'_>,
 ) -> Result<Vec<MedialAxis>, EngineError> {
-    let of_side = |side: &Side| match side {
-        Side::Exterior => exterior(domain, args.engine, args.frame, options),
-        _ => interior(domain, args.engine, options),
-    };
-    args.side.all().iter().map(of_side).collect()
+    let of_side = |&side: &Side| on_side(side, &args.region, domain, args.engine, options);
+    args.region.side.all().iter().map(of_side).collect()
 }
 
-fn code(error: &EngineError) -> &'static str {
-    match error {
-        EngineError::TooLarge { .. } => "too_large",
-        EngineError::Frame { .. } => "frame",
-        EngineError::Cancelled => "cancelled",
-        EngineError::TimeLimit => "time_limit",
-        _ => "internal",
+/// The axis on a side.
+pub fn on_side(
+    side: Side,
+    region: &Region,
+    domain: &Domain,
+    engine: Engine,
+    options: &engine::Options<'_>,
+) -> Result<MedialAxis, EngineError> {
+    match side {
+        Side::Exterior => exterior(domain, engine, region.frame, options),
+        _ => interior(domain, engine, options),
     }
 }
 
@@ -94,9 +97,6 @@ fn output_format(args: &AxisArgs) -> Result<Format, Failure> {
     }
     if !args.draw.is_empty() && !picture {
         return usage(format!("--draw is for svg and png, not for {format}"));
-    }
-    if args.frame.is_some() && args.side == Sides::Interior {
-        return usage("--frame is for --side exterior and both".to_owned());
     }
     if args.z.is_some() && !lines && format != Format::Csv {
         return usage(format!("--z is for geojson, geojsonl, wkt, wkb and csv, not for {format}"));

@@ -20,6 +20,7 @@ pub fn run(args: &CheckArgs) -> Result<Status, Failure> {
     let mut documents = timed(&mut run.stages.read, || read_documents(&axes))?;
     let layer = timed(&mut run.stages.read, || layer(&input, &args.domain, &args.common))?;
     let mut output = Output::create(args.output.as_deref())?;
+    let (at_once, _) = run.threads(&layer);
     let told = |judged: &Judged| match args.to {
         Form::Text => judged.text(),
         Form::Json => judged.json(),
@@ -29,6 +30,7 @@ pub fn run(args: &CheckArgs) -> Result<Status, Failure> {
     let status = run.each(
         &input,
         layer,
+        at_once,
         |feature, domain, stages, bytes| {
             let of_feature = documents.get(&feature.index).map_or(&[][..], Vec::as_slice);
             let judged = timed(&mut stages.operations, || Judged::all(feature, domain, of_feature));

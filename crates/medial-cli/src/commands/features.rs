@@ -56,7 +56,7 @@ impl<'a> Run<'a> {
         })
     }
 
-    /// Calls `work` for each valid feature, several at once, then `done` with the results and
+    /// Calls `work` for each valid feature, `at_once` at a time, then `done` with the results and
     /// `write` with the bytes that `work` appended, both in order; tells and reports what is left
     /// out.
     ///
@@ -65,13 +65,13 @@ impl<'a> Run<'a> {
         &mut self,
         input: &Input,
         layer: Layer<'_>,
+        at_once: NonZeroUsize,
         work: impl Fn(&Feature, &Domain, &mut Stages, &mut Vec<u8>) -> Result<R, Entry> + Sync,
         mut done: impl FnMut(R),
         mut write: impl FnMut(&[u8]) -> Result<(), Failure>,
     ) -> Result<Status, Failure> {
         let common = self.common;
         let progress = Progress::new(common.progress, common.quiet, layer.len);
-        let (at_once, _) = self.threads(&layer);
         let mut report = Report { input: input.name.clone(), ..Report::default() };
         let mut find = Duration::ZERO;
         // Bytes of earlier batches, for their memory: it grows once and stays warm.

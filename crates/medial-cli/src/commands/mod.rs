@@ -1,4 +1,5 @@
 pub mod axis;
 pub mod check;
+pub mod compare;
 mod features;
 mod sink;

@@ -213,6 +213,45 @@ impl Curve {
         (chordal + turning).abs()
     }
 
+    /// The distance of `p` from the nearest point of the curve, rounded.
+    ///
+    /// ```
+    /// use medial::axis::{Curve, Site};
+    /// use medial::geom::Point;
+    /// let walls = [(4.0, 0.0), (0.0, 2.0)].map(|(x, y)| {
+    ///     Site::edge(Point::new(4.0 - x, y), Point::new(x, y))
+    /// });
+    /// let (from, to) = ((Point::new(1.0, 1.0), 1.0), (Point::new(3.0, 1.0), 1.0));
+    /// let spine = Curve::new(&walls[1], &walls[0], from, to);
+    /// assert_eq!(spine.distance(Point::new(2.0, 1.5)), 0.5);
+    /// assert_eq!(spine.distance(Point::new(6.0, 5.0)), 5.0);
+    /// ```
+    #[must_use]
+    pub fn distance(&self, p: Point) -> f64 {
+        let ends = (p - self.from).norm().min((p - self.to).norm());
+        let away = |u: f64| (p - self.point_at(u)).norm();
+        match self.form {
+            Form::Linear | Form::Corners { .. } => {
+                let d = self.to - self.from;
+                let u = d.dot(p - self.from) / d.norm2();
+                if 0.0 < u && u < 1.0 { ends.min(away(u)) } else { ends }
+            }
+            Form::Parabola { d, x: [x1, x2], focus, tangent } => {
+                // Where the curve is square to the way to p = (u, v) over the foot of the focus:
+                // x³ + d(3d - 2v)x - 2ud² = 0, in units in which the curve is of size 1.
+                let size = x1.abs().max(x2.abs()).max(d);
+                let (d, a, b) = (d / size, x1 / size, x2 / size);
+                let q = (p - focus) * (1.0 / size);
+                let (u, v) = (tangent.dot(q), tangent.perp().dot(q) + d);
+                let feet = cubic_roots(d * (3.0 * d - 2.0 * v), -2.0 * u * d * d);
+                feet.into_iter()
+                    .map(|x| (x - a) / (b - a))
+                    .filter(|&share| 0.0 < share && share < 1.0)
+                    .fold(ends, |least, share| least.min(away(share)))
+            }
+        }
+    }
+
     /// The part between parameters `u` and `v`, as a curve of its own.
     #[must_use]
     pub fn piece(&self, u: f64, v: f64) -> Self {
@@ -329,6 +368,27 @@ fn parabola(focus: Point, edge: &Site, from: (Point, f64), to: (Point, f64)) -> 
         if radius > d { square.sqrt().copysign(x) } else { x }
     };
     Form::Parabola { d, x: [position(from), position(to)], focus, tangent }
+}
+
+/// The real roots of `x³ + px + q`, rounded; one that stands for several comes more than once.
+fn cubic_roots(p: f64, q: f64) -> [f64; 3] {
+    let (third, half) = (p / 3.0, q / 2.0);
+    let discriminant = half * half + third * third * third;
+    let roots = if discriminant > 0.0 {
+        // Cardano's, without cancellation.
+        let cube = (half.abs() + discriminant.sqrt()).cbrt().copysign(-half);
+        [cube - third / cube; 3]
+    } else {
+        let radius = (-third).max(0.0).sqrt();
+        let angle = (-half / (radius * radius * radius)).clamp(-1.0, 1.0).acos() / 3.0;
+        let turn = std::f64::consts::TAU / 3.0;
+        [0.0, 1.0, 2.0].map(|k| 2.0 * radius * (angle - k * turn).cos())
+    };
+    // One step of Newton's takes off what rounding has added.
+    roots.map(|x| {
+        let better = x - ((x * x + p) * x + q) / (3.0 * x * x + p);
+        if better.is_finite() { better } else { x }
+    })
 }
 
 /// `(b - a) × (p - a)` with a small relative error, however near `p` lies to the line.

@@ -206,3 +206,30 @@ fn a_mistyped_tolerance_does_not_fill_the_memory() {
         assert!(curve.polyline_in_space(tolerance).len() <= 65_537);
     }
 }
+
+#[test]
+fn distances_from_a_parabola_are_those_of_its_nearest_point() {
+    // y = (x² + 1)/2 from x = -3 to 5; the point over the apex has the foot of the normal at x.
+    let curve = over_axis(1.0, -3.0, 5.0);
+    let on = |x: f64| p(x, 0.5 * (x * x + 1.0));
+    for x in [-2.5, -1.0, -1e-9, 0.0, 0.75, 2.0, 4.9] {
+        // Along the normal (-x, 1), inwards as far as the centre of curvature and outwards.
+        let normal = p(-x, 1.0) * (1.0 / 1.0_f64.hypot(x));
+        for far in [-7.0, -0.5, 0.5] {
+            close(curve.distance(on(x) + normal * far), far.abs(), 1e-13);
+        }
+        assert!(curve.distance(on(x)) < 1e-14);
+    }
+    // From far above the apex two feet are nearest: (0, y) to (x, (x² + 1)/2) with x² = 2y - 3.
+    close(curve.distance(p(0.0, 3.5)), 2.0_f64.hypot(1.0), 1e-14);
+    // Beyond its ends the ends are nearest.
+    close(curve.distance(on(7.0)), (on(7.0) - on(5.0)).norm(), 1e-14);
+    assert_eq!(curve.distance(curve.from()), 0.0);
+}
+
+#[test]
+fn distances_from_a_line_without_length_are_those_of_its_point() {
+    let edge = Site::edge(p(0.0, 0.0), p(4.0, 0.0));
+    let end = (p(1.0, 1.0), 1.0);
+    assert_eq!(Curve::new(&edge, &edge, end, end).distance(p(4.0, 5.0)), 5.0);
+}

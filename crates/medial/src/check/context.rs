@@ -59,13 +59,7 @@ impl<'a> Context<'a> {
         let mut sites = Vec::with_capacity(axis.sites().len());
         let mut first_use: Vec<Option<u32>> = vec![None; 2 * domain.edges().len()];
         for (number, claimed) in (0_u32..).zip(axis.sites()) {
-            let name = Name {
-                kind: claimed.kind,
-                polygon: claimed.polygon,
-                ring: claimed.ring,
-                index: claimed.index,
-                part: claimed.part,
-            };
+            let name = Name::from(&claimed);
             let at = claimed.a;
             let found = names.partition_point(|(known, _)| *known < name);
             let Some(&(_, site)) = names.get(found).filter(|(known, _)| *known == name) else {

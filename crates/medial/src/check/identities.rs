@@ -48,7 +48,11 @@ pub(super) fn counts(context: &Context) -> Counts {
 ///
 /// With n edges, m reflex corners, W walks, C components and k governors at a keypoint: the sum of
 /// k - 2 over inner keypoints is n + m + 2W - 4C; a straight joint, whose two edges are one contact,
-/// adds an edge and one to the sum at one keypoint, and nothing else.
+/// adds an edge and one to the sum at one keypoint, and nothing else. Inner keypoints are the points
+/// of the Voronoi diagram of edges and reflex corners, and paths its edges, but for the normals at
+/// both ends of the zone of a corner. So the bounds of [Lee82, lemma 3] follow: n + m - 2 points and
+/// 2(n + m) - 3 edges for a simple polygon, 2 and 3 more for each hole. They are met where no keypoint
+/// has more than three governors.
 ///
 /// Outside, infinity counts as one more walk. The h paths that go there end in no keypoint, which
 /// leaves h less of the sum, and so do the j joints at edges on the hull, whose normals go there too.
@@ -83,7 +87,7 @@ pub(super) fn identities(context: &Context, counts: &Counts) -> Vec<Identity> {
     let leaves = n - m - counts.straight as i64;
     let far = h + far_joints(context);
     let spare = n + m + 2 * w - 4 * c - far;
-    // Normals at the two ends of the zone of a corner, and one between the edges of a joint.
+    // With the two normals of each corner, and one between the edges of a joint.
     let voronoi = paths + 2 * m + counts.straight as i64;
     let at_most = |name, expected: i64, found: i64| Identity {
         relation: Relation::AtMost,

@@ -39,6 +39,7 @@ mod areas;
 mod boundary;
 mod context;
 mod defect;
+mod difference;
 mod direction;
 mod disks;
 mod enclosure;
@@ -53,6 +54,7 @@ mod tree;
 mod verdict;
 
 pub use defect::Defect;
+pub use difference::{Difference, difference};
 pub use name::Name;
 pub use verdict::{Counts, Identity, LeftOut, Relation, Verdict};
 

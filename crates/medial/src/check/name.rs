@@ -1,6 +1,6 @@
 use std::fmt;
 
-use crate::axis::SiteKind;
+use crate::axis::{self, SiteKind};
 use crate::domain::{Domain, Site};
 
 /// A boundary element by its place in the input, as the axis document names it.
@@ -16,6 +16,14 @@ pub struct Name {
     pub index: u32,
     /// Piece of a split edge, or which touch along an edge.
     pub part: u32,
+}
+
+impl From<&axis::Site> for Name {
+    /// The name that an axis gives to one of its sites.
+    fn from(site: &axis::Site) -> Self {
+        let axis::Site { kind, polygon, ring, index, part, .. } = *site;
+        Self { kind, polygon, ring, index, part }
+    }
 }
 
 impl Name {

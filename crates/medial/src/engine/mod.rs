@@ -9,7 +9,9 @@ mod options;
 mod path_tracing;
 mod watch;
 
-pub use divide_and_conquer::{divide_and_conquer, divide_and_conquer_with};
+pub use divide_and_conquer::{
+    Work, divide_and_conquer, divide_and_conquer_counted, divide_and_conquer_with,
+};
 pub use error::EngineError;
 pub use exterior::{exterior, interior};
 pub use options::Options;

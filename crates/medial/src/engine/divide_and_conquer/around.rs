@@ -110,6 +110,7 @@ impl Merge<'_, '_> {
                 break;
             }
             let half = scan.half;
+            self.diagram.count_arc();
             let far = self.far(half, scan.hand);
             let vertex = is_vertex(far).then(|| self.vertex(far));
             scan.half = self.step(half, scan.hand);

@@ -1,5 +1,7 @@
 //! Diagrams as lists of the arcs around each cell.
 
+use std::cell::Cell;
+
 use super::disks::Disk;
 use super::elements::{Flank, Member};
 
@@ -31,6 +33,10 @@ pub(super) struct Diagram {
     pub vertices: Vec<Disk>,
     /// The first and the last arc around each cell.
     pub ends: Vec<[u32; 2]>,
+    /// How many pieces of merge curves were followed.
+    pub pieces: usize,
+    /// How many arcs were looked at.
+    pub arcs: Cell<usize>,
 }
 
 impl Diagram {
@@ -41,6 +47,8 @@ impl Diagram {
             halves: Vec::with_capacity(24 * n),
             vertices: Vec::with_capacity(6 * n),
             ends: vec![[NONE; 2]; 4 * n],
+            pieces: 0,
+            arcs: Cell::new(0),
         }
     }
 
@@ -58,6 +66,11 @@ impl Diagram {
         self.bound(start, up_at_start, down_at_start ^ 1);
         self.bound(right, down_at_start, down_at_end ^ 1);
         self.bound(end, down_at_end, up_at_end ^ 1);
+    }
+
+    /// Counts one more arc that is looked at.
+    pub fn count_arc(&self) {
+        self.arcs.set(self.arcs.get() + 1);
     }
 
     /// An arc from a corner to infinity.

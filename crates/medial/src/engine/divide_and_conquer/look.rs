@@ -144,6 +144,7 @@ impl Merge<'_, '_> {
             if half == NONE {
                 break Ahead::Element;
             }
+            self.diagram.count_arc();
             let (beyond, far) = (self.diagram.beyond(half), self.far(half, hand));
             if self.joints.iter().any(|joint| joint.drops(beyond)) {
                 // The other chain has this part of the plane; the curve may run along its rim.

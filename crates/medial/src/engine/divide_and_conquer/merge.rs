@@ -245,6 +245,7 @@ impl<'m, 'a> Merge<'m, 'a> {
         let most = 16 * self.diagram.ends.len() + 64;
         for _ in 0..most {
             self.watch.check()?;
+            self.diagram.pieces += 1;
             let (to_left, to_right) =
                 if closing.is_some() { self.look_around(curve) } else { self.look_both(curve) };
             let order = match (to_left.disk(), to_right.disk()) {

@@ -81,6 +81,9 @@ mod order;
 mod pairs;
 mod rings;
 mod touches;
+mod work;
+
+pub use work::Work;
 
 use super::watch::Watch;
 use super::{EngineError, Options};
@@ -110,6 +113,32 @@ pub fn divide_and_conquer_with(
     domain: &Domain,
     options: &Options<'_>,
 ) -> Result<MedialAxis, EngineError> {
+    run(domain, options).map(|(axis, _)| axis)
+}
+
+/// The same, with the work that its merges took.
+///
+/// # Errors
+/// As [`divide_and_conquer`].
+///
+/// ```
+/// use medial::domain::{Domain, Options};
+/// use medial::engine::divide_and_conquer_counted;
+/// use medial::geom::Point;
+/// // Two chains of two edges are merged from two of one, and with both ends to a square; the last
+/// // curve has two pieces inside, from corner to corner through the centre.
+/// let square = [(0.0, 0.0), (2.0, 0.0), (2.0, 2.0), (0.0, 2.0)].map(|(x, y)| Point::new(x, y));
+/// let domain = Domain::from_polygons(&[vec![square.to_vec()]], &Options::default())?;
+/// let (axis, work) = divide_and_conquer_counted(&domain)?;
+/// assert_eq!(axis.paths().len(), 4);
+/// assert!(work.pieces >= 2 && work.arcs >= work.pieces && work.starts == 0);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn divide_and_conquer_counted(domain: &Domain) -> Result<(MedialAxis, Work), EngineError> {
+    run(domain, &Options::default())
+}
+
+fn run(domain: &Domain, options: &Options<'_>) -> Result<(MedialAxis, Work), EngineError> {
     let n_edges = domain.edges().len();
     // Four elements an edge, and some arcs for each.
     let n = u32::try_from(n_edges).ok().filter(|n| *n < u32::MAX / 64);
@@ -138,7 +167,9 @@ pub fn divide_and_conquer_with(
             merged.add(k);
         }
     }
-    extract::axis(members, &diagram, &watch)
+    let axis = extract::axis(members, &diagram, &watch)?;
+    let starts = merged.map_or(0, |merged| merged.looked());
+    Ok((axis, Work { pieces: diagram.pieces, arcs: diagram.arcs.get(), starts }))
 }
 
 /// Merges the edges of a simple ring, chains of one length two at a time [Lee82, Fig. 8], each as soon as

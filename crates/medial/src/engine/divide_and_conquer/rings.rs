@@ -1,5 +1,6 @@
 //! Where the merge curve around a ring crosses an arc of the ring's own diagram.
 
+use std::cell::Cell;
 use std::ops::Range;
 
 use super::diagram::{APEX, Diagram, NONE};
@@ -28,6 +29,8 @@ pub(super) struct Merged<'a> {
     walks: Vec<bool>,
     /// The component of the last one: what another one has is never seen from this one.
     component: u32,
+    /// How many edges were looked at.
+    looked: Cell<usize>,
 }
 
 /// Collects edges near a disk.
@@ -55,7 +58,8 @@ impl Visitor for Near<'_> {
 
 impl<'a> Merged<'a> {
     pub fn new(members: Members<'a>, tree: &'a BoundsTree) -> Self {
-        Self { members, tree, walks: vec![false; members.domain.walks().len()], component: 0 }
+        let walks = vec![false; members.domain.walks().len()];
+        Self { members, tree, walks, component: 0, looked: Cell::new(0) }
     }
 
     /// Notes that a walk is merged.
@@ -79,7 +83,13 @@ impl<'a> Merged<'a> {
             (disk.radius + bound) * (1.0 + 64.0 * f64::EPSILON) + 64.0 * f64::EPSILON * size;
         let mut near = Near { centre, reach, merged: self, edges: Vec::new() };
         self.tree.visit(&mut near);
+        self.looked.set(self.looked.get() + near.edges.len());
         near.edges
+    }
+
+    /// How many edges were looked at so far.
+    pub fn looked(&self) -> usize {
+        self.looked.get()
     }
 
     /// The elements at an edge that the interior sees: the edge, and its corners if they are reflex.

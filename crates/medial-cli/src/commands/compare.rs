@@ -1,0 +1,72 @@
+use super::features::{Run, layer};
+use crate::args::{CompareArgs, Rows};
+use crate::comparison::{Comparison, Totals, csv_header};
+use crate::failure::{Failure, Status};
+use crate::input::Input;
+use crate::output::Output;
+use crate::timings::timed;
+use medial::engine::Options;
+use std::num::NonZeroUsize;
+
+/// `medial compare`.
+pub fn run(args: &CompareArgs) -> Result<Status, Failure> {
+    args.region.check()?;
+    let mut run = Run::new(&args.common)?;
+    let rows = rows(args);
+    let input = timed(&mut run.stages.read, || Input::read(&args.input))?;
+    let layer = timed(&mut run.stages.read, || layer(&input, &args.input, &args.common))?;
+    let mut output = Output::create(args.output.as_deref())?;
+    let threads = args.common.threads.unwrap_or(NonZeroUsize::MIN);
+    let options = Options { threads, ..Options::default() };
+    let mut totals = Totals::default();
+    let mut begun = false;
+    let status = run.each(
+        &input,
+        layer,
+        // Two at once would share the memory and the processor whose use is measured.
+        NonZeroUsize::MIN,
+        |feature, domain, stages, bytes| {
+            // All that is asked of a feature, or nothing.
+            let mut of_sides = Vec::new();
+            for &side in args.region.side.all() {
+                of_sides.push(Comparison::new(feature, domain, side, args, &options, stages)?);
+            }
+            timed(&mut stages.write, || {
+                for compared in &of_sides {
+                    bytes.extend(match rows {
+                        Rows::Json => compared.json().into_bytes(),
+                        Rows::Csv => compared.csv(),
+                        Rows::Text => compared.text().into_bytes(),
+                    });
+                }
+            });
+            Ok(of_sides)
+        },
+        |of_sides| totals.add(&of_sides),
+        |bytes| {
+            if rows == Rows::Csv && !std::mem::replace(&mut begun, true) {
+                output.write(&csv_header())?;
+            }
+            output.write(bytes)
+        },
+    )?;
+    if status != Status::NoResult {
+        if rows == Rows::Text {
+            output.write(totals.text().as_bytes())?;
+        }
+        output.finish()?;
+    }
+    run.finish()?;
+    Ok(status)
+}
+
+/// The form of the rows: as asked for, by the extension, else JSON.
+fn rows(args: &CompareArgs) -> Rows {
+    let extension = args.output.as_ref().and_then(|path| path.extension()?.to_str());
+    let of_extension = match extension.map(str::to_ascii_lowercase).as_deref() {
+        Some("csv") => Rows::Csv,
+        Some("txt") => Rows::Text,
+        _ => Rows::Json,
+    };
+    args.to.unwrap_or(of_extension)
+}
