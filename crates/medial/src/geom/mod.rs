@@ -19,6 +19,6 @@ pub use disk::{Governor, TouchingDisk, Unsure};
 pub use double::Double;
 pub(crate) use double::{Doubled, Fused};
 pub use hilbert::hilbert;
-pub use orient::{cross_directions, orient2d};
+pub use orient::{cross_directions, dot_directions, orient2d};
 pub use point::Point;
 pub use rims::{Pinned, Rim};

@@ -37,6 +37,7 @@
 mod construct;
 mod counts;
 mod disk;
+mod distance;
 mod ends;
 mod fine;
 mod grid;
@@ -51,6 +52,7 @@ mod wide;
 
 pub use counts::{Counts, counts, reset_counts};
 pub use disk::ExactDisk;
+pub use distance::compare_distances;
 pub use ends::{First, Leaving, two_ends};
 pub(crate) use near::sign;
 pub use stages::in_disk;
