@@ -23,6 +23,10 @@ Exit status: 0 all done; 1 no usable result; 2 wrong usage; 3 some features were
 pub enum Command {
     /// Compute the medial axis of polygons
     Axis(AxisArgs),
+    /// Compute the Voronoi diagram of the boundary elements of polygons
+    Voronoi(VoronoiArgs),
+    /// Find what of the boundary of polygons is nearest to a point
+    Locate(LocateArgs),
     /// Find every defect of an axis document
     Check(CheckArgs),
     /// Run every engine on the same polygons
@@ -74,6 +78,70 @@ pub struct AxisArgs {
     /// governors
     #[arg(long, value_name = "WHAT", value_delimiter = ',', value_parser = extra)]
     pub draw: Vec<Extra>,
+    #[command(flatten)]
+    pub common: Common,
+}
+
+const VORONOI_HELP: &str = "\
+Examples:
+  medial voronoi fixtures/shapes/l_with_unit_arms.wkt -o l.svg
+  medial voronoi fixtures/river.geojson --tolerance 0.1 -o cells.geojson
+  medial voronoi fixtures/river.geojson --to json > river.voronoi.json
+  medial voronoi fixtures/shapes/l_with_unit_arms.wkt --side both -o both.svg
+
+Exit status: 0 all done; 1 no usable result; 2 wrong usage; 3 some features were left out.";
+
+/// Arguments of `medial voronoi`.
+#[derive(Debug, Args)]
+#[command(after_help = VORONOI_HELP)]
+pub struct VoronoiArgs {
+    /// Polygons: GeoJSON, GeoJSON lines, WKT, WKB or rings; `-` for standard input
+    pub input: PathBuf,
+    /// File to write; by default, and for `-`, standard output
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<PathBuf>,
+    /// Format of the output: geojson, geojsonl, json (Voronoi document), svg; by default that of
+    /// the extension, on standard output geojson
+    #[arg(long, value_name = "FORMAT")]
+    pub to: Option<Format>,
+    /// Who computes the axes: path_tracing, divide_and_conquer
+    #[arg(long, value_name = "NAME", default_value = "path_tracing", value_parser = engine)]
+    pub engine: Engine,
+    #[command(flatten)]
+    pub region: Region,
+    /// Largest distance between a curve and the polyline drawn for it, in units of the input
+    /// (geojson, geojsonl); by default 1e-4 of the longer side of the feature's box
+    #[arg(long, value_name = "T", value_parser = positive, allow_negative_numbers = true)]
+    pub tolerance: Option<f64>,
+    #[command(flatten)]
+    pub common: Common,
+}
+
+const LOCATE_HELP: &str = "\
+Examples:
+  medial locate 2 0.75 fixtures/shapes/l_with_unit_arms.wkt
+  medial locate -1 2 fixtures/river.geojson -o nearest.json
+
+The result is JSON, one line for each feature: the side of the boundary on which the point lies, its
+distance, and all nearest elements with their footpoints.
+
+Exit status: 0 all done; 1 no usable result; 2 wrong usage; 3 some features were left out.";
+
+/// Arguments of `medial locate`.
+#[derive(Debug, Args)]
+#[command(after_help = LOCATE_HELP)]
+pub struct LocateArgs {
+    /// Abscissa of the point, in units of the input
+    #[arg(value_parser = coordinate, allow_negative_numbers = true)]
+    pub x: f64,
+    /// Ordinate of the point, in units of the input
+    #[arg(value_parser = coordinate, allow_negative_numbers = true)]
+    pub y: f64,
+    /// Polygons: GeoJSON, GeoJSON lines, WKT, WKB or rings; `-` for standard input
+    pub input: PathBuf,
+    /// File to write; by default, and for `-`, standard output
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<PathBuf>,
     #[command(flatten)]
     pub common: Common,
 }
@@ -299,6 +367,18 @@ fn positive(word: &str) -> Result<f64, String> {
     match word.parse::<f64>() {
         Ok(value) if value.is_finite() && value > 0.0 => Ok(value),
         _ => Err("a positive number is needed".to_owned()),
+    }
+}
+
+fn coordinate(word: &str) -> Result<f64, String> {
+    let range = 2.0_f64.powi(-200)..=2.0_f64.powi(200);
+    let fits = |value: f64| value == 0.0 || range.contains(&value.abs());
+    match word.parse::<f64>() {
+        Ok(value) if fits(value) => Ok(value),
+        Ok(value) if value.is_finite() => {
+            Err("it must be 0 or between 2^-200 and 2^200 in magnitude".to_owned())
+        }
+        _ => Err("a finite number is needed".to_owned()),
     }
 }
 

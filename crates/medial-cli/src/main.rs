@@ -1,4 +1,4 @@
-//! The command `medial`: files in, axes and verdicts out.
+//! The command `medial`: files in, axes, diagrams and verdicts out.
 //!
 //! It translates between people and the library, and computes nothing.
 
@@ -31,6 +31,8 @@ fn main() -> ExitCode {
 fn run() -> Result<Status, Failure> {
     match args::parse()? {
         Command::Axis(args) => commands::axis::run(&args),
+        Command::Voronoi(args) => commands::voronoi::run(&args),
+        Command::Locate(args) => commands::locate::run(&args),
         Command::Check(args) => commands::check::run(&args),
         Command::Compare(args) => commands::compare::run(&args),
     }

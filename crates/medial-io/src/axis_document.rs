@@ -59,7 +59,7 @@ enum AccuracyRecord<'a> {
 }
 
 #[derive(Serialize, Deserialize)]
-struct SiteRecord<'a> {
+pub(crate) struct SiteRecord<'a> {
     #[serde(borrow)]
     kind: Cow<'a, str>,
     polygon: u32,
@@ -142,7 +142,8 @@ pub fn write(source: &Feature, axis: &MedialAxis) -> String {
     line
 }
 
-fn site_record(site: &Site) -> SiteRecord<'static> {
+/// A site as JSON documents have it.
+pub(crate) fn site_record(site: &Site) -> SiteRecord<'static> {
     let xy = |p: Point| Some([p.x, p.y]);
     let (a, b, p) = match site.kind {
         SiteKind::Edge => (xy(site.a), xy(site.b), None),

@@ -35,9 +35,11 @@ mod samples;
 pub mod axis_document;
 pub mod csv;
 pub mod geojson;
+pub mod location_document;
 pub mod png;
 pub mod rings;
 pub mod svg;
+pub mod voronoi_document;
 pub mod wkb;
 pub mod wkt;
 

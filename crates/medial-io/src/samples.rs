@@ -1,7 +1,10 @@
 //! Axes known by heart, for tests.
 
 use medial::axis::{Accuracy, Engine, KeypointKind, MedialAxis, Path, Side, Site};
+use medial::domain::{Domain, Options};
+use medial::engine::{self, path_tracing};
 use medial::geom::Point;
+use medial::ops::Voronoi;
 
 fn p(x: f64, y: f64) -> Point {
     Point::new(x, y)
@@ -32,6 +35,27 @@ fn axis(
         paths,
     )
     .unwrap()
+}
+
+/// What `ask` says of the Voronoi diagram inside some rings.
+pub(crate) fn with_voronoi<R>(rings: &[Vec<Point>], ask: impl FnOnce(&Voronoi) -> R) -> R {
+    let domain = Domain::from_polygons(&[rings.to_vec()], &Options::default()).unwrap();
+    let axes = [path_tracing(&domain).unwrap()];
+    ask(&Voronoi::new(&domain, &axes).unwrap())
+}
+
+/// The same of the diagram inside and outside.
+pub(crate) fn with_both_sides<R>(rings: &[Vec<Point>], ask: impl FnOnce(&Voronoi) -> R) -> R {
+    let domain = Domain::from_polygons(&[rings.to_vec()], &Options::default()).unwrap();
+    let options = engine::Options::default();
+    let outside = engine::exterior(&domain, Engine::PathTracing, None, &options).unwrap();
+    let axes = [path_tracing(&domain).unwrap(), outside];
+    ask(&Voronoi::new(&domain, &axes).unwrap())
+}
+
+/// The boundary of the square of side 2.
+pub(crate) fn square_rings() -> Vec<Vec<Point>> {
+    vec![vec![p(0.0, 0.0), p(2.0, 0.0), p(2.0, 2.0), p(0.0, 2.0)]]
 }
 
 /// The boundary of the rectangle 4 × 2.

@@ -27,7 +27,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! Each module uses only those before it: `geom < domain < axis < engine < check`.
+//! Each module uses only those before it: `geom < domain < axis < engine < check < ops`.
 
 pub mod geom;
 
@@ -38,6 +38,8 @@ pub mod axis;
 pub mod engine;
 
 pub mod check;
+
+pub mod ops;
 
 /// Runs the lines of Rust in the README.
 #[cfg(doctest)]

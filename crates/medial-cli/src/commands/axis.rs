@@ -1,5 +1,5 @@
 use super::features::{Run, layer};
-use super::sink::{Sink, encode};
+use super::sink::{Sink, draw, encode};
 use crate::args::{AxisArgs, Height, Region, Sides};
 use crate::failure::{Failure, Status};
 use crate::input::Input;
@@ -11,6 +11,7 @@ use medial::engine::{self, EngineError, exterior, interior};
 use medial_io::svg::Options;
 use medial_io::{Drawing, Format};
 use std::io::IsTerminal as _;
+use std::path::Path;
 
 /// `medial axis`.
 pub fn run(args: &AxisArgs) -> Result<Status, Failure> {
@@ -27,7 +28,7 @@ pub fn run(args: &AxisArgs) -> Result<Status, Failure> {
     let layer = timed(&mut run.stages.read, || layer(&input, &args.input, &args.common))?;
     let picture = Options { title: title(args), draw: args.draw.clone(), ..Options::default() };
     let crs = layer.crs.clone();
-    let mut sink = Sink::create(args.output.as_deref(), format, drawing, crs, picture)?;
+    let mut sink = Sink::create(args.output.as_deref(), format, drawing, crs)?;
     let mut scenes = Vec::new();
     let mut write = std::time::Duration::ZERO;
     let (at_once, threads) = run.threads(&layer);
@@ -38,29 +39,31 @@ pub fn run(args: &AxisArgs) -> Result<Status, Failure> {
         at_once,
         |feature, domain, stages, bytes| {
             // All that is asked of a feature, or nothing.
-            let axes = timed(&mut stages.engine, || trace(args, domain, &options))
-                .map_err(|error| Entry::unfinished(&error))?;
+            let axes =
+                timed(&mut stages.engine, || trace(args.engine, &args.region, domain, &options))?;
             Ok(timed(&mut stages.write, || encode(format, drawing, feature, domain, axes, bytes)))
         },
         |drawn| scenes.extend(drawn),
         |bytes| timed(&mut write, || sink.write(bytes)),
     )?;
     if status != Status::NoResult {
-        timed(&mut write, || sink.finish(&scenes))?;
+        timed(&mut write, || sink.finish(&draw(format, &scenes, &picture)?))?;
     }
     run.stages.write += write;
     run.finish()?;
     Ok(status)
 }
 
-/// The axes of a feature, one for each side that is asked for.
-fn trace(
-    args: &AxisArgs,
+/// The axes of a feature by an engine, one for each side that is asked for, or why it is refused.
+pub fn trace(
+    engine: Engine,
+    region: &Region,
     domain: &Domain,
     options: &engine::Options<'_>,
-) -> Result<Vec<MedialAxis>, EngineError> {
-    let of_side = |&side: &Side| on_side(side, &args.region, domain, args.engine, options);
-    args.region.side.all().iter().map(of_side).collect()
+) -> Result<Vec<MedialAxis>, Entry> {
+    let of_side = |&side: &Side| on_side(side, region, domain, engine, options);
+    let axes: Result<_, EngineError> = region.side.all().iter().map(of_side).collect();
+    axes.map_err(|error| Entry::unfinished(&error))
 }
 
 /// The axis on a side.
@@ -77,17 +80,22 @@ pub fn on_side(
     }
 }
 
-/// The format of the output, from `--to`, else the extension, else GeoJSON.
-fn output_format(args: &AxisArgs) -> Result<Format, Failure> {
-    let file = args.output.as_deref().filter(|path| path.as_os_str() != "-");
-    let format = match (args.to, file) {
-        (Some(format), _) => format,
-        (None, None) => Format::GeoJson,
+/// The format of an output, from `--to`, else the extension of the file, else GeoJSON.
+pub fn format_of(to: Option<Format>, file: Option<&Path>) -> Result<Format, Failure> {
+    match (to, file) {
+        (Some(format), _) => Ok(format),
+        (None, None) => Ok(Format::GeoJson),
         (None, Some(path)) => Format::from_path(path).map_err(|_| {
             let name = path.display();
             Failure::Usage(format!("{name}: the extension names no format; say it with --to"))
-        })?,
-    };
+        }),
+    }
+}
+
+/// The format of the output, if axes and the other options have it.
+fn output_format(args: &AxisArgs) -> Result<Format, Failure> {
+    let file = args.output.as_deref().filter(|path| path.as_os_str() != "-");
+    let format = format_of(args.to, file)?;
     let usage = |why: String| Err(Failure::Usage(why));
     let picture = matches!(format, Format::Svg | Format::Png);
     let lines =

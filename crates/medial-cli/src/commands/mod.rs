@@ -2,4 +2,6 @@ pub mod axis;
 pub mod check;
 pub mod compare;
 mod features;
+pub mod locate;
 mod sink;
+pub mod voronoi;

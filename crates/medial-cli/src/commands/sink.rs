@@ -15,7 +15,6 @@ pub struct Sink {
     format: Format,
     drawing: Drawing,
     crs: Option<Json>,
-    picture: Options,
     begun: bool,
 }
 
@@ -90,9 +89,8 @@ impl Sink {
         format: Format,
         drawing: Drawing,
         crs: Option<Json>,
-        picture: Options,
     ) -> Result<Self, Failure> {
-        Ok(Self { output: Output::create(path)?, format, drawing, crs, picture, begun: false })
+        Ok(Self { output: Output::create(path)?, format, drawing, crs, begun: false })
     }
 
     /// Writes what [`encode`] made of axes that follow one another.
@@ -118,22 +116,24 @@ impl Sink {
         }
     }
 
-    /// Writes what comes last, and lets the output appear.
-    pub fn finish(mut self, scenes: &[Scene]) -> Result<(), Failure> {
+    /// Writes what comes last, the picture if the format is one, and lets the output appear.
+    pub fn finish(mut self, picture: &[u8]) -> Result<(), Failure> {
         self.begin()?;
-        match self.format {
-            Format::GeoJson => self.output.write(geojson::FOOTER.as_bytes())?,
-            Format::Svg => {
-                let picture = svg::write(scenes, &self.picture);
-                self.output.write(picture.as_bytes())?;
-            }
-            Format::Png => {
-                let picture = png::write(scenes, &self.picture)
-                    .map_err(|error| Failure::file("<picture>", error))?;
-                self.output.write(&picture)?;
-            }
-            _ => {}
+        if self.format == Format::GeoJson {
+            self.output.write(geojson::FOOTER.as_bytes())?;
         }
+        self.output.write(picture)?;
         self.output.finish()
+    }
+}
+
+/// The picture of all axes; nothing for other formats.
+pub fn draw(format: Format, scenes: &[Scene], options: &Options) -> Result<Vec<u8>, Failure> {
+    match format {
+        Format::Svg => Ok(svg::write(scenes, options).into_bytes()),
+        Format::Png => {
+            png::write(scenes, options).map_err(|error| Failure::file("<picture>", error))
+        }
+        _ => Ok(Vec::new()),
     }
 }

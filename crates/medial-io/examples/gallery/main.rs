@@ -1,8 +1,9 @@
-//! The figures of [JPV], drawn again from values the library returns, as twelve lessons.
+//! The figures of [JPV], drawn again from values the library returns, as twelve lessons; and more pictures.
 //!
 //! `cargo run -p medial-io --example gallery -- DIR` writes them, and a README, into a folder.
 //! Nothing here computes an axis: the shapes are given, all else is asked of `medial`.
 
+mod both_sides;
 mod bounds;
 mod lake;
 mod lesson;
@@ -10,6 +11,7 @@ mod letter;
 mod shape;
 mod sheet;
 mod style;
+mod voronoi;
 
 mod fig_01;
 mod fig_02;
@@ -46,12 +48,17 @@ const LESSONS: [Lesson; 12] = [
 ];
 
 /// Pictures besides, each in a file of its name.
-const PICTURES: [(&str, Lesson); 2] = [("letter", letter::LESSON), ("lake", lake::LESSON)];
+const PICTURES: [(&str, Lesson); 4] = [
+    ("voronoi", voronoi::LESSON),
+    ("both-sides", both_sides::LESSON),
+    ("letter", letter::LESSON),
+    ("lake", lake::LESSON),
+];
 
 const HEAD: &str = "\
 # Gallery
 
-The twelve figures of [JPV] (see [REFERENCES.md](../../REFERENCES.md)), drawn again, and a few real shapes.
+The twelve figures of [JPV] and two of [Lee82] (see [REFERENCES.md](../../REFERENCES.md)), drawn again, and a few real shapes.
 Nothing here is drawn by hand: [the example `gallery`](../../crates/medial-io/examples/gallery/main.rs) gives the polygons and draws what the library returns for them, after `check::defects` has found nothing wrong with it.
 `scripts/figures` draws everything anew.
 

@@ -261,6 +261,22 @@ impl Panel<'_> {
         self.sheet.element("path", &format!("d=\"{data}\""), style);
     }
 
+    /// What a closed chain of curves surrounds, exactly.
+    pub fn outline(&mut self, curves: &[Curve], style: &str) {
+        let mut data = String::new();
+        for (k, curve) in curves.iter().enumerate() {
+            if k == 0 {
+                let _ = write!(data, "M{}", self.pair(curve.from()));
+            }
+            let to = self.pair(curve.to());
+            let _ = match curve.control() {
+                Some(control) => write!(data, "Q{} {to}", self.pair(control)),
+                None => write!(data, "L{to}"),
+            };
+        }
+        self.sheet.element("path", &format!("d=\"{data}Z\""), style);
+    }
+
     /// A straight line.
     pub fn line(&mut self, a: Point, b: Point, style: &str) {
         let data = format!("M{}L{}", self.pair(a), self.pair(b));

@@ -41,6 +41,9 @@ pub const FRONT: &str = "fill=\"none\" stroke=\"#ef6c00\" stroke-width=\"1.6\" \
 /// The back half-line of a site.
 pub const BACK: &str = "fill=\"none\" stroke=\"#3949ab\" stroke-width=\"1.6\" \
                         stroke-dasharray=\"2 3\"";
+/// A normal at a reflex corner.
+pub const NORMAL: &str = "fill=\"none\" stroke=\"#455a64\" stroke-width=\"1.4\" \
+                          stroke-dasharray=\"6 4\" stroke-linecap=\"round\"";
 /// A supporting line.
 pub const SUPPORT: &str = "fill=\"none\" stroke=\"#90a4ae\" stroke-width=\"1.2\" \
                            stroke-dasharray=\"4 4\"";

@@ -2,9 +2,11 @@
 
 mod quick;
 mod read;
+mod voronoi;
 mod write;
 
 pub use read::{read, read_lines};
+pub use voronoi::{voronoi_features, voronoi_lines};
 pub use write::{FOOTER, SEPARATOR, feature_lines, features, header};
 
 #[cfg(test)]

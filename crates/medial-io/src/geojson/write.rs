@@ -2,7 +2,7 @@ use crate::json::{compact, push_quoted};
 use crate::number::decimal;
 use crate::path::{PathRecord, records};
 use crate::{Drawing, Feature, Json};
-use medial::axis::MedialAxis;
+use medial::axis::{Engine, MedialAxis};
 use medial::geom::Point;
 use std::borrow::Cow;
 
@@ -48,7 +48,13 @@ fn write(
     [before, after]: [&[u8]; 2],
 ) {
     let tolerance = drawing.tolerance(axis);
-    let common = beginning(source, axis, drawing, before);
+    let ours = |name: &str| is_ours(name, drawing);
+    let mut common = beginning(source, axis.engine, ours, before);
+    if drawing.side {
+        common.extend_from_slice(b"\"side\":\"");
+        common.extend_from_slice(axis.side.name().as_bytes());
+        common.extend_from_slice(b"\",");
+    }
     let places = Places::new(axis, drawing);
     out.reserve(axis.paths().len() * (common.len() + PATH_BYTES));
     for record in records(axis) {
@@ -163,9 +169,13 @@ impl Places {
 }
 
 /// How every feature of one axis begins, behind `before`: with the properties of the source,
-/// renamed where the name is ours, then `feature`, `source_id`, `engine` and, if asked for,
-/// `side`. Ends with a comma.
-fn beginning(source: &Feature, axis: &MedialAxis, drawing: Drawing, before: &[u8]) -> Vec<u8> {
+/// renamed where the name `is_ours`, then `feature`, `source_id` and `engine`. Ends with a comma.
+pub(super) fn beginning(
+    source: &Feature,
+    engine: Engine,
+    is_ours: impl Fn(&str) -> bool,
+    before: &[u8],
+) -> Vec<u8> {
     let mut out = Vec::with_capacity(COMMON_BYTES);
     out.extend_from_slice(before);
     out.extend_from_slice(b"{\"type\":\"Feature\",\"properties\":{");
@@ -174,7 +184,7 @@ fn beginning(source: &Feature, axis: &MedialAxis, drawing: Drawing, before: &[u8
     for (k, (name, value)) in properties.iter().enumerate() {
         let mut name = Cow::Borrowed(name.as_str());
         // Prefix until the name is free, so that no property hides another.
-        while is_ours(&name, drawing) || is_name(&name, k) || {
+        while is_ours(&name) || is_name(&name, k) || {
             name != properties[k].0 && is_name(&name, properties.len())
         } {
             name.to_mut().insert_str(0, "source_");
@@ -192,25 +202,23 @@ fn beginning(source: &Feature, axis: &MedialAxis, drawing: Drawing, before: &[u8
         None => out.extend_from_slice(b"null"),
     }
     out.extend_from_slice(b",\"engine\":\"");
-    out.extend_from_slice(axis.engine.name().as_bytes());
+    out.extend_from_slice(engine.name().as_bytes());
     out.extend_from_slice(b"\",");
-    if drawing.side {
-        out.extend_from_slice(b"\"side\":\"");
-        out.extend_from_slice(axis.side.name().as_bytes());
-        out.extend_from_slice(b"\",");
-    }
     out
 }
 
+/// The properties of every feature that [`beginning`] writes.
+pub(super) const COMMON: [&str; 3] = ["feature", "source_id", "engine"];
+
 fn is_ours(name: &str, drawing: Drawing) -> bool {
     const KEYPOINT: [&str; 5] = ["keypoint", "kind", "radius", "degree", "governors"];
-    ["feature", "source_id", "engine"].contains(&name)
+    COMMON.contains(&name)
         || drawing.side && name == "side"
         || PathRecord::COLUMNS.contains(&name)
         || drawing.keypoints && KEYPOINT.contains(&name)
 }
 
-fn position(out: &mut Vec<u8>, p: Point, radius: Option<f64>) {
+pub(super) fn position(out: &mut Vec<u8>, p: Point, radius: Option<f64>) {
     out.push(b'[');
     number(out, p.x);
     out.push(b',');
@@ -222,6 +230,6 @@ fn position(out: &mut Vec<u8>, p: Point, radius: Option<f64>) {
     out.push(b']');
 }
 
-fn number(out: &mut Vec<u8>, value: f64) {
+pub(super) fn number(out: &mut Vec<u8>, value: f64) {
     decimal(value, |text| out.extend_from_slice(text.as_bytes()));
 }

@@ -1,6 +1,6 @@
 use super::{Options, Scene};
 use medial::axis::Side;
-use medial::geom::Point;
+use medial::geom::{Point, Rect};
 
 /// Longer side of the drawn shapes, in pixels.
 const SIDE: f64 = 1000.0;
@@ -32,22 +32,21 @@ pub(super) struct Frame {
 
 impl Frame {
     pub fn around(scenes: &[Scene], options: &Options) -> Self {
-        let boundary = |s: &Scene| s.boundary.iter().flatten().copied().collect::<Vec<_>>();
+        let boundary = scenes.iter().flat_map(|s| s.boundary.iter().flatten()).copied();
         // An axis inside lies within its boundary.
-        let outside = |s: &Scene| {
-            let bounds = (s.axis.side == Side::Exterior).then(|| s.axis.bounds()).flatten();
-            bounds.into_iter().flat_map(|(low, high)| [low, high])
+        let outside = scenes.iter().filter(|s| s.axis.side == Side::Exterior);
+        let outside = outside.filter_map(|s| s.axis.bounds()).flat_map(|(low, high)| [low, high]);
+        let n = scenes.iter().map(|s| s.axis.keypoints().len()).sum();
+        Self::over(boundary.chain(outside), n, options)
+    }
+
+    /// The frame of shapes with these corners, on which so many points are drawn.
+    pub fn over(corners: impl Iterator<Item = Point>, n: usize, options: &Options) -> Self {
+        let bounds = corners.fold(Rect::EMPTY, Rect::with);
+        let (low, high) = match bounds.min.x.is_finite() {
+            true => (bounds.min, bounds.max),
+            false => (Point::new(0.0, 0.0), Point::new(1.0, 1.0)),
         };
-        let points = || scenes.iter().flat_map(|s| boundary(s).into_iter().chain(outside(s)));
-        let fold = |x: fn(Point) -> f64, pick: fn(f64, f64) -> f64| points().map(x).reduce(pick);
-        let low = Point::new(
-            fold(|p| p.x, f64::min).unwrap_or(0.0),
-            fold(|p| p.y, f64::min).unwrap_or(0.0),
-        );
-        let high = Point::new(
-            fold(|p| p.x, f64::max).unwrap_or(1.0),
-            fold(|p| p.y, f64::max).unwrap_or(1.0),
-        );
         let extent = high - low;
         let longer = extent.x.max(extent.y);
         let scale = if longer > 0.0 { SIDE / longer } else { 1.0 };
@@ -64,7 +63,7 @@ impl Frame {
             size: Point::new(width, top + drawn.y + MARGIN + legend),
             title_y: MARGIN + 10.0,
             legend_y: top + drawn.y + MARGIN,
-            stroke: stroke(scenes, drawn),
+            stroke: stroke(n, drawn),
         }
     }
 
@@ -86,8 +85,7 @@ impl Frame {
 }
 
 /// A tenth of the typical distance of keypoints, between 0.6 and 2.6 pixels.
-fn stroke(scenes: &[Scene], drawn: Point) -> f64 {
-    let n: usize = scenes.iter().map(|s| s.axis.keypoints().len()).sum();
+fn stroke(n: usize, drawn: Point) -> f64 {
     let spacing = (drawn.x * drawn.y / n.max(1) as f64).sqrt();
     (0.1 * spacing).clamp(0.6, 2.6)
 }

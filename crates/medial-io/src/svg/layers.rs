@@ -17,28 +17,28 @@ const VERTEX_GOVERNOR: &str = "#d84315";
 pub(super) fn domain(canvas: &mut Canvas, scenes: &[Scene]) {
     canvas.open("domain", &format!("fill=\"{GROUND}\" fill-rule=\"evenodd\""));
     for scene in scenes {
-        let data = rings(canvas, scene);
+        let data = rings(canvas, &scene.boundary);
         canvas.path(&data, "");
     }
     canvas.close();
 }
 
-pub(super) fn boundary(canvas: &mut Canvas, scenes: &[Scene]) {
+pub(super) fn boundary<'s>(canvas: &mut Canvas, shapes: impl Iterator<Item = &'s Vec<Vec<Point>>>) {
     let width = number(0.6 * canvas.frame.stroke);
     let style = format!(
         "fill=\"none\" stroke=\"{INK}\" stroke-width=\"{width}\" stroke-linejoin=\"round\""
     );
     canvas.open("boundary", &style);
-    for scene in scenes {
-        let data = rings(canvas, scene);
+    for shape in shapes {
+        let data = rings(canvas, shape);
         canvas.path(&data, "");
     }
     canvas.close();
 }
 
-fn rings(canvas: &Canvas, scene: &Scene) -> String {
+fn rings(canvas: &Canvas, boundary: &[Vec<Point>]) -> String {
     let mut data = Data::new(&canvas.frame);
-    for ring in &scene.boundary {
+    for ring in boundary {
         data.ring(ring.iter().copied());
     }
     data.text

@@ -5,21 +5,26 @@ use super::{Options, Scene};
 use medial::axis::KeypointKind;
 use medial::geom::Point;
 
-const QUIET: &str = "#607d8b";
+pub(super) const QUIET: &str = "#607d8b";
 /// Width of the colour bar.
 const BAR: f64 = 220.0;
 
 /// The title above and the legend below the shapes.
 pub(super) fn draw(canvas: &mut Canvas, scenes: &[Scene], options: &Options, radius_max: f64) {
     let (left, right) = canvas.frame.margins();
-    if !options.title.is_empty() {
-        let y = canvas.frame.title_y;
-        canvas.text(Point::new(left, y), 20.0, Anchor::Start, INK, &options.title);
-    }
+    title(canvas, options);
     if options.legend {
         let y = canvas.frame.legend_y;
         radius_bar(canvas, Point::new(left, y), radius_max);
         counts(canvas, Point::new(right, y), scenes, options.keypoints);
+    }
+}
+
+/// The title above the shapes.
+pub(super) fn title(canvas: &mut Canvas, options: &Options) {
+    if !options.title.is_empty() {
+        let at = Point::new(canvas.frame.margins().0, canvas.frame.title_y);
+        canvas.text(at, 20.0, Anchor::Start, INK, &options.title);
     }
 }
 
@@ -67,7 +72,7 @@ fn counts(canvas: &mut Canvas, at: Point, scenes: &[Scene], keypoints: bool) {
     canvas.text(place, 12.0, Anchor::End, QUIET, &plural(n_paths, "path"));
 }
 
-fn plural(n: usize, word: &str) -> String {
+pub(super) fn plural(n: usize, word: &str) -> String {
     if n == 1 { format!("1 {word}") } else { format!("{n} {word}s") }
 }
 

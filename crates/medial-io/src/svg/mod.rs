@@ -11,6 +11,9 @@ mod layers;
 mod legend;
 mod lettering;
 mod palette;
+mod voronoi;
+
+pub use voronoi::{Diagram, write_diagrams};
 
 use crate::text::escaped;
 use canvas::Canvas;
@@ -105,7 +108,7 @@ pub fn write(scenes: &[Scene], options: &Options) -> String {
             }
         }
     }
-    layers::boundary(&mut canvas, scenes);
+    layers::boundary(&mut canvas, scenes.iter().map(|scene| &scene.boundary));
     if options.draw.contains(&Extra::Footpoints) {
         layers::footpoints(&mut canvas, scenes);
     }

@@ -1,8 +1,7 @@
 use super::enclosure::norm1;
-use super::tree::Tree;
 use super::{Defect, Name};
 use crate::axis::MedialAxis;
-use crate::domain::{Complement, Corner, Domain, Horizon, Site, Walk};
+use crate::domain::{Complement, Corner, Domain, EdgeTree, Horizon, Site, Walk};
 use crate::geom::Point;
 
 /// Edges near one disk up to which all are looked at in a complete axis.
@@ -35,7 +34,7 @@ pub(super) struct Context<'a> {
     pub(super) axis: &'a MedialAxis,
     /// The element of the domain behind each site of the axis, if it has one.
     pub(super) sites: Vec<Option<Site>>,
-    pub(super) tree: Tree,
+    pub(super) tree: EdgeTree,
     /// Largest coordinate sum of a corner: what rounding errors near the boundary refer to.
     pub(super) size: f64,
 }
@@ -88,7 +87,7 @@ impl<'a> Context<'a> {
         let inner = &domain.edges()[n_walls as usize..];
         let size = inner.iter().map(|edge| norm1(edge.start)).fold(0.0, f64::max);
         let walks = &domain.walks()[usize::from(n_walls > 0)..];
-        let tree = Tree::new(domain, walks);
+        let tree = EdgeTree::new(domain, walks);
         let horizon = outside.map(Complement::horizon);
         Self { domain, horizon, n_walls, axis, sites, tree, size }
     }

@@ -50,7 +50,6 @@ mod maximal_disk;
 mod name;
 mod paths;
 mod sampled;
-mod tree;
 mod verdict;
 
 pub use defect::Defect;

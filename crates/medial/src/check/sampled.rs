@@ -1,3 +1,5 @@
+use std::ops::ControlFlow;
+
 use super::Defect;
 use super::context::Context;
 
@@ -6,7 +8,11 @@ use super::context::Context;
 pub(super) fn check(context: &Context, spacing: f64, defects: &mut Vec<Defect>) {
     for (number, keypoint) in context.axis.keypoints().iter().enumerate() {
         let at = keypoint.position;
-        let distance = context.tree.nearest(at, |edge| context.distance(at, edge));
+        let mut distance = f64::INFINITY;
+        let _ = context.tree.nearest_first(at, |edge| {
+            distance = distance.min(context.distance(at, edge));
+            ControlFlow::Continue(distance)
+        });
         let off = (keypoint.radius - distance).abs();
         if off.is_nan() || off > spacing {
             let keypoint = number as u32;

@@ -103,8 +103,7 @@ impl Complement {
     #[must_use]
     pub fn inner_site(&self, site: Site) -> Option<Site> {
         let [edge, corner] = self.places[site.index() as usize];
-        let inner = if site.is_edge() { Site::edge(edge) } else { Site::corner(corner) };
-        (edge != NONE).then_some(inner)
+        (edge != NONE).then(|| if site.is_edge() { Site::edge(edge) } else { Site::corner(corner) })
     }
 }
 

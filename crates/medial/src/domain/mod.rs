@@ -28,6 +28,7 @@ mod rings;
 mod sites;
 mod status;
 mod sweep;
+mod tree;
 mod unit;
 mod walks;
 
@@ -37,4 +38,5 @@ pub use error::{DomainError, NestingFault, Place};
 pub use horizon::Horizon;
 pub use origins::{CornerOrigin, Origin};
 pub use report::{Entry, Repair, Report};
+pub(crate) use tree::EdgeTree;
 pub use walks::{Corner, Domain, Edge, Site, Walk};

@@ -20,6 +20,6 @@ pub use double::Double;
 pub(crate) use double::{Doubled, Fused};
 pub use hilbert::hilbert;
 pub(crate) use orient::compare_lengths;
-pub use orient::{cross_directions, orient2d};
+pub use orient::{cross_directions, dot_directions, orient2d};
 pub use point::Point;
 pub use rims::{Pinned, Rim};

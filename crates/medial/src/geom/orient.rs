@@ -65,6 +65,20 @@ pub(crate) fn compare_lengths(a: Point, b: Point, c: Point) -> Ordering {
     sum.sign_value().partial_cmp(&0.0).unwrap_or(Ordering::Equal)
 }
 
+/// The scalar product of the directions `a` → `b` and `c` → `d`; the sign is exact.
+///
+/// ```
+/// use medial::geom::{Point, dot_directions};
+/// let p = Point::new;
+/// assert!(dot_directions(p(0.0, 0.0), p(1.0, 0.0), p(5.0, 5.0), p(6.0, 9.0)) > 0.0);
+/// assert_eq!(dot_directions(p(0.0, 0.0), p(1.0, 2.0), p(5.0, 5.0), p(7.0, 4.0)), 0.0);
+/// ```
+#[inline]
+#[must_use]
+pub fn dot_directions(a: Point, b: Point, c: Point, d: Point) -> f64 {
+    cross_directions(a, b, c.perp(), d.perp())
+}
+
 /// Bound on the relative error of a cross product of two rounded differences.
 ///
 /// Four differences, two products and one subtraction each add at most 2^-53 to first order:

@@ -24,7 +24,7 @@ use super::draft::site_record;
 use super::{EngineError, Options, divide_and_conquer_with, path_tracing_with};
 use crate::axis::{Accuracy, Engine, KeypointKind, MedialAxis, Path, Side};
 use crate::domain::{Complement, Domain, Site};
-use crate::geom::Point;
+use crate::geom::{Point, Rect};
 use cut::{Cut, End};
 use frame::Frame;
 
@@ -82,6 +82,14 @@ pub fn exterior(
     let sites = sites_of(&outside, &whole).ok_or(broken("naming the sites of the outside"))?;
     let cut = Cut::new(&frame, &whole, |site| outside.is_frame(sites[site as usize].index()));
     assemble(&outside, &whole, &sites, &cut).ok_or(broken("cutting paths at the frame"))
+}
+
+/// The rectangle at which [`exterior`] cuts the axis with this margin.
+///
+/// # Errors
+/// [`EngineError::Frame`] if the margin is not positive, or too large.
+pub fn exterior_frame(domain: &Domain, margin: Option<f64>) -> Result<Rect, EngineError> {
+    Frame::around(domain, margin).map(|frame| frame.bounds)
 }
 
 /// The sites of an axis as those of its domain: both are in boundary order.

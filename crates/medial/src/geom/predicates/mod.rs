@@ -37,6 +37,7 @@
 mod construct;
 mod counts;
 mod disk;
+mod distance;
 mod dyadic;
 mod ends;
 mod fine;
@@ -52,6 +53,7 @@ mod wide;
 
 pub use counts::{Counts, counts, reset_counts};
 pub use disk::ExactDisk;
+pub use distance::compare_distances;
 pub use ends::{First, Leaving, two_ends};
 pub(crate) use near::sign;
 pub use stages::in_disk;

@@ -1,6 +1,6 @@
 use std::ops::ControlFlow;
 
-use crate::domain::{Domain, Walk};
+use super::{Domain, Walk};
 use crate::geom::{Point, Rect, hilbert};
 
 /// Children of a node, and edges of a leaf.
@@ -11,12 +11,13 @@ const WIDTH: usize = 8;
 /// Along a walk each node covers a run of consecutive edges by a box in the run's own direction, so
 /// that slivers and smooth curves are followed closely. Above the walks the nodes are packed along
 /// a Hilbert curve, so that the order of the holes does not matter.
-pub(super) struct Tree {
+#[derive(Clone, Debug)]
+pub(crate) struct EdgeTree {
     nodes: Vec<Node>,
     root: Option<u32>,
 }
 
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 struct Node {
     bounds: Oriented,
     /// First edge of a leaf, first child otherwise; they are consecutive.
@@ -26,7 +27,7 @@ struct Node {
 }
 
 /// A box along a direction.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 struct Oriented {
     base: Point,
     /// Unit vector.
@@ -36,9 +37,9 @@ struct Oriented {
     max: Point,
 }
 
-impl Tree {
+impl EdgeTree {
     /// A tree over the edges of some walks of a domain.
-    pub(super) fn new(domain: &Domain, walks: &[Walk]) -> Self {
+    pub(crate) fn new(domain: &Domain, walks: &[Walk]) -> Self {
         let mut tree = Self { nodes: Vec::new(), root: None };
         let mut tops: Vec<(Rect, Node)> = Vec::with_capacity(walks.len());
         for walk in walks {
@@ -120,7 +121,7 @@ impl Tree {
     /// Calls `visit` with each edge that may be nearer to `point` than `reach`, until it breaks.
     ///
     /// An edge at that distance is visited if `reach` allows for rounding.
-    pub(super) fn near<B>(
+    pub(crate) fn near<B>(
         &self,
         point: Point,
         reach: f64,
@@ -151,27 +152,34 @@ impl Tree {
         None
     }
 
-    /// The least value of `distance` over all edges, where it is the distance from `point`.
-    pub(super) fn nearest(&self, point: Point, distance: impl Fn(u32) -> f64) -> f64 {
-        let mut least = f64::INFINITY;
+    /// Calls `visit` with edges, about in the order of their distance from `point`: every edge that
+    /// may be as near as the distance `visit` gave last; until it breaks.
+    pub(crate) fn nearest_first(
+        &self,
+        point: Point,
+        mut visit: impl FnMut(u32) -> ControlFlow<(), f64>,
+    ) -> ControlFlow<()> {
+        let mut reach = f64::INFINITY;
         let mut stack: Vec<(f64, u32)> = self.root.iter().map(|&root| (0.0, root)).collect();
-        while let Some((bound2, node)) = stack.pop() {
-            if bound2 > least * least {
+        while let Some((bound, node)) = stack.pop() {
+            if bound > reach {
                 continue;
             }
             let node = &self.nodes[node as usize];
             let children = node.first..node.first + node.count;
             if node.leaf {
-                least = children.map(&distance).fold(least, f64::min);
+                for edge in children {
+                    reach = visit(edge)?;
+                }
                 continue;
             }
             let waiting = stack.len();
-            let bound = |child: u32| self.nodes[child as usize].bounds.distance2(point);
+            let bound = |child: u32| self.nodes[child as usize].bounds.surely_beyond(point);
             stack.extend(children.map(|child| (bound(child), child)));
             // The nearest box is looked at first.
             stack[waiting..].sort_by(|a, b| b.0.total_cmp(&a.0));
         }
-        least
+        ControlFlow::Continue(())
     }
 }
 
@@ -212,5 +220,16 @@ impl Oriented {
         let x = (self.min.x - a).max(a - self.max.x).max(0.0);
         let y = (self.min.y - b).max(b - self.max.y).max(0.0);
         x * x + y * y
+    }
+
+    /// A distance from the point within which certainly nothing of the box lies.
+    ///
+    /// Coordinates relative to the base are differences, products and sums, each within a few units
+    /// in the last place of their sizes, and those of the direction are as well.
+    fn surely_beyond(&self, point: Point) -> f64 {
+        const ROUNDING: f64 = 16.0 * f64::EPSILON;
+        let q = point - self.base;
+        let size = q.x.abs() + q.y.abs() + self.min.x.abs() + self.max.x + self.min.y.abs();
+        self.distance2(point).sqrt() - ROUNDING * (size + self.max.y)
     }
 }

@@ -1,0 +1,45 @@
+use super::features::{Run, layer};
+use crate::args::LocateArgs;
+use crate::failure::{Failure, Status};
+use crate::input::Input;
+use crate::output::Output;
+use crate::report::Entry;
+use crate::timings::timed;
+use medial::geom::Point;
+use medial::ops::Voronoi;
+use medial_io::location_document;
+use std::time::Duration;
+
+/// `medial locate`.
+pub fn run(args: &LocateArgs) -> Result<Status, Failure> {
+    let point = Point::new(args.x, args.y);
+    let mut run = Run::new(&args.common)?;
+    let input = timed(&mut run.stages.read, || Input::read(&args.input))?;
+    let layer = timed(&mut run.stages.read, || layer(&input, &args.input, &args.common))?;
+    let mut output = Output::create(args.output.as_deref())?;
+    let mut write = Duration::ZERO;
+    let (at_once, _) = run.threads(&layer);
+    let status = run.each(
+        &input,
+        layer,
+        at_once,
+        |feature, domain, stages, bytes| {
+            // One point among the edges near it costs less than an axis, and is as exact.
+            let located = timed(&mut stages.operations, || {
+                Voronoi::new(domain, &[]).and_then(|voronoi| voronoi.locate(point))
+            });
+            let located = located.map_err(|error| Entry::refused("internal", error.to_string()))?;
+            let line = location_document::write(feature, point, &located);
+            timed(&mut stages.write, || bytes.extend_from_slice(line.as_bytes()));
+            Ok(())
+        },
+        |()| {},
+        |bytes| timed(&mut write, || output.write(bytes)),
+    )?;
+    if status != Status::NoResult {
+        timed(&mut write, || output.finish())?;
+    }
+    run.stages.write += write;
+    run.finish()?;
+    Ok(status)
+}

@@ -1,0 +1,120 @@
+use super::axis::{format_of, trace};
+use super::features::{Run, layer};
+use super::sink::Sink;
+use crate::args::VoronoiArgs;
+use crate::failure::{Failure, Status};
+use crate::input::Input;
+use crate::report::Entry;
+use crate::timings::timed;
+use medial::axis::MedialAxis;
+use medial::domain::Domain;
+use medial::engine::{self, exterior_frame};
+use medial::ops::{Voronoi, VoronoiError};
+use medial_io::svg::{Diagram, Options, write_diagrams};
+use medial_io::{Drawing, Feature, Format, geojson, voronoi_document};
+use std::time::Duration;
+
+/// `medial voronoi`.
+pub fn run(args: &VoronoiArgs) -> Result<Status, Failure> {
+    let mut run = Run::new(&args.common)?;
+    let format = output_format(args)?;
+    let input = timed(&mut run.stages.read, || Input::read(&args.input))?;
+    let layer = timed(&mut run.stages.read, || layer(&input, &args.input, &args.common))?;
+    let mut sink =
+        Sink::create(args.output.as_deref(), format, Drawing::default(), layer.crs.clone())?;
+    let mut diagrams = Vec::new();
+    let mut write = Duration::ZERO;
+    let (at_once, threads) = run.threads(&layer);
+    let options = engine::Options { threads, ..engine::Options::default() };
+    let status = run.each(
+        &input,
+        layer,
+        at_once,
+        |feature, domain, stages, bytes| {
+            let axes =
+                timed(&mut stages.engine, || trace(args.engine, &args.region, domain, &options))?;
+            let voronoi =
+                timed(&mut stages.operations, || diagram(domain, &axes, args.region.frame))
+                    .map_err(|error| Entry::refused("internal", error.to_string()))?;
+            let encode = || encode(format, args.tolerance, feature, &voronoi, bytes);
+            Ok(timed(&mut stages.write, encode))
+        },
+        |diagram| diagrams.extend(diagram),
+        |bytes| timed(&mut write, || sink.write(bytes)),
+    )?;
+    if status != Status::NoResult {
+        timed(&mut write, || {
+            let picture = match format {
+                Format::Svg => {
+                    let options = Options { title: title(args), ..Options::default() };
+                    write_diagrams(&diagrams, &options)
+                }
+                _ => String::new(),
+            };
+            sink.finish(picture.as_bytes())
+        })?;
+    }
+    run.stages.write += write;
+    run.finish()?;
+    Ok(status)
+}
+
+/// The diagram of axes that were cut so far from the box.
+fn diagram<'a>(
+    domain: &'a Domain,
+    axes: &'a [MedialAxis],
+    margin: Option<f64>,
+) -> Result<Voronoi<'a>, VoronoiError> {
+    match margin {
+        None => Voronoi::new(domain, axes),
+        Some(_) => {
+            let frame = exterior_frame(domain, margin).map_err(|_| VoronoiError::Frame)?;
+            Voronoi::within(domain, axes, &frame)
+        }
+    }
+}
+
+/// Appends the diagram of a feature in a format, or gives what to draw of it.
+fn encode(
+    format: Format,
+    tolerance: Option<f64>,
+    feature: &Feature,
+    voronoi: &Voronoi,
+    bytes: &mut Vec<u8>,
+) -> Option<Diagram> {
+    match format {
+        Format::Svg => return Some(Diagram::new(voronoi)),
+        Format::GeoJson => geojson::voronoi_features(bytes, feature, voronoi, tolerance),
+        Format::GeoJsonLines => geojson::voronoi_lines(bytes, feature, voronoi, tolerance),
+        _ => bytes.extend_from_slice(voronoi_document::write(feature, voronoi).as_bytes()),
+    }
+    None
+}
+
+/// The format of the output, if diagrams and the other options have it.
+fn output_format(args: &VoronoiArgs) -> Result<Format, Failure> {
+    let file = args.output.as_deref().filter(|path| path.as_os_str() != "-");
+    let format = format_of(args.to, file)?;
+    let known = [Format::GeoJson, Format::GeoJsonLines, Format::Json, Format::Svg];
+    if !known.contains(&format) {
+        let why =
+            format!("diagrams are written as geojson, geojsonl, json or svg, not as {format}");
+        return Err(Failure::Usage(why));
+    }
+    args.region.check()?;
+    if args.tolerance.is_some() && !matches!(format, Format::GeoJson | Format::GeoJsonLines) {
+        let why = format!("--tolerance is for geojson and geojsonl; curves are exact in {format}");
+        return Err(Failure::Usage(why));
+    }
+    Ok(format)
+}
+
+/// The line above a picture: the name of the input.
+fn title(args: &VoronoiArgs) -> String {
+    match args.input.file_name() {
+        Some(name) if args.input.as_os_str() != "-" => {
+            format!("Voronoi diagram of {}", name.to_string_lossy())
+        }
+        _ => "Voronoi diagram".to_owned(),
+    }
+}
