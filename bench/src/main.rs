@@ -3,13 +3,15 @@
 //! `medial-bench draw SHAPE EDGES` prints a shape, as `text` describes; `medial-bench time [ENGINE]`
 //! reads shapes and prints one line, as `measure` describes, with the number of paths as what was
 //! found; `medial-bench axis SHAPE EDGES` computes the axis of a shape once, for counting
-//! instructions in `medial_bench_domain` and `medial_bench_engine`.
+//! instructions in `medial_bench_domain` and `medial_bench_engine`; `medial-bench work SHAPE EDGES`
+//! prints the numbers of edges and rings, and what the merges of `divide_and_conquer` did: pieces,
+//! arcs, starts.
 
 use std::{env, hint};
 
 use medial::axis::{Engine, MedialAxis};
 use medial::domain::{Domain, DomainError, Options};
-use medial::engine::{self, EngineError, interior};
+use medial::engine::{self, EngineError, divide_and_conquer_counted, interior};
 use medial::geom::Point;
 use medial_bench::measure::{Error, Work, report};
 use medial_bench::{shapes, text};
@@ -21,7 +23,8 @@ fn main() -> Result<(), Error> {
         ["time"] => time(Engine::PathTracing),
         ["time", engine] => time(engine.parse()?),
         ["axis", shape, edges] => axis(shape, edges.parse()?),
-        _ => Err("medial-bench draw or axis SHAPE EDGES, or time [ENGINE]".into()),
+        ["work", shape, edges] => work(shape, edges.parse()?),
+        _ => Err("medial-bench draw, axis or work SHAPE EDGES, or time [ENGINE]".into()),
     }
 }
 
@@ -46,6 +49,14 @@ fn time(engine: Engine) -> Result<(), Error> {
         count: |_: &Domain, axis: &MedialAxis| axis.paths().len(),
     };
     report(&text::read()?, text::edges, &work)
+}
+
+fn work(shape: &str, edges: usize) -> Result<(), Error> {
+    let domain = medial_bench_domain(&polygons(shape, edges)?)?;
+    let (_, work) = divide_and_conquer_counted(&domain)?;
+    let (edges, rings) = (domain.edges().len(), domain.walks().len());
+    println!("{edges} {rings} {} {} {}", work.pieces, work.arcs, work.starts);
+    Ok(())
 }
 
 /// Does once what `time` repeats.
