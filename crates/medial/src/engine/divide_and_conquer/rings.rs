@@ -7,6 +7,7 @@ use super::diagram::{APEX, Diagram, NONE};
 use super::disks::Disk;
 use super::elements::{Flank, Member, Members};
 use super::merge::Crossing;
+use crate::axis::{self, Curve};
 use crate::domain::{Corner, Site, Walk};
 use crate::engine::EngineError;
 use crate::engine::draft::contacts::{Contacts, sort};
@@ -14,6 +15,9 @@ use crate::geom::{BoundsTree, Point, Rect, TouchingDisk, Visitor};
 
 /// How much a disk grows that has met nothing yet.
 const GROWTH: f64 = 2.0;
+
+/// Radius of the first disk on an arc, in diameters of the domain, if nothing else tells.
+const NEAREST: f64 = 2e-6;
 
 /// Radius of the largest disk on an unbounded arc, in diameters of the domain.
 const FARTHEST: f64 = 4.0;
@@ -56,6 +60,31 @@ impl Visitor for Near<'_> {
     }
 }
 
+/// Looks for an edge near a disk that cuts it.
+struct Found<'n> {
+    near: Near<'n>,
+    cuts: &'n dyn Fn(u32) -> bool,
+    found: bool,
+}
+
+impl Visitor for Found<'_> {
+    fn enters(&self, bounds: &Rect, range: Range<u32>) -> bool {
+        !self.found && self.near.enters(bounds, range)
+    }
+
+    fn item(&mut self, edge: u32) {
+        if self.found {
+            return;
+        }
+        self.near.item(edge);
+        if let Some(edge) = self.near.edges.pop() {
+            let looked = &self.near.merged.looked;
+            looked.set(looked.get() + 1);
+            self.found = (self.cuts)(edge);
+        }
+    }
+}
+
 impl<'a> Merged<'a> {
     pub fn new(members: Members<'a>, tree: &'a BoundsTree) -> Self {
         let walks = vec![false; members.domain.walks().len()];
@@ -75,16 +104,21 @@ impl<'a> Merged<'a> {
     }
 
     fn near(&self, disk: &TouchingDisk) -> Vec<u32> {
+        let mut near = self.near_to(disk);
+        self.tree.visit(&mut near);
+        self.looked.set(self.looked.get() + near.edges.len());
+        near.edges
+    }
+
+    /// What looks for edges near a disk.
+    fn near_to(&self, disk: &TouchingDisk) -> Near<'_> {
         let centre = disk.position();
         let size = centre.x.abs().max(centre.y.abs()) + disk.radius;
         let bound = if disk.bound.is_finite() { disk.bound } else { 0.0 };
         // With room for rounding: what is near is asked exactly.
         let reach =
             (disk.radius + bound) * (1.0 + 64.0 * f64::EPSILON) + 64.0 * f64::EPSILON * size;
-        let mut near = Near { centre, reach, merged: self, edges: Vec::new() };
-        self.tree.visit(&mut near);
-        self.looked.set(self.looked.get() + near.edges.len());
-        near.edges
+        Near { centre, reach, merged: self, edges: Vec::new() }
     }
 
     /// How many edges were looked at so far.
@@ -100,6 +134,14 @@ impl<'a> Merged<'a> {
             (domain.edge(k).corner == Corner::Reflex).then(|| self.members.member(Site::corner(k)))
         };
         [Some(Member::side(edge, Flank::Left)), corner(edge), corner(next)].into_iter().flatten()
+    }
+
+    /// Whether any edge cuts an exact disk.
+    fn is_cut(&self, disk: &Disk) -> bool {
+        let cuts = |edge: u32| self.members.meets(disk, Member::side(edge, Flank::Left)).is_lt();
+        let mut found = Found { near: self.near_to(&disk.disk), cuts: &cuts, found: false };
+        self.tree.visit(&mut found);
+        found.found
     }
 
     /// Edges that cut an exact disk, of those near it.
@@ -147,8 +189,7 @@ impl<'a> Merged<'a> {
                 }
                 // Infinity has no disk, and is lost.
                 let far = diagram.disk(diagram.to(half));
-                let far = far.map(|far| (self.cutting(&far, &self.near(&far.disk)), far));
-                if far.as_ref().is_none_or(|(edges, _)| !edges.is_empty()) {
+                if far.as_ref().is_none_or(|far| self.is_cut(far)) {
                     if let Some(crossing) = self.on(diagram, half, far) {
                         return Ok(crossing);
                     }
@@ -161,15 +202,15 @@ impl<'a> Merged<'a> {
         Err(EngineError::Internal { stage: "looking for the merge curve around a ring", place })
     }
 
-    /// Where the merge curve crosses an arc whose far end is lost, to some edges if it is a vertex.
-    fn on(&self, diagram: &Diagram, half: u32, far: Option<(Vec<u32>, Disk)>) -> Option<Crossing> {
+    /// Where the merge curve crosses an arc whose far end is lost.
+    fn on(&self, diagram: &Diagram, half: u32, far: Option<Disk>) -> Option<Crossing> {
         let (left, right) = (diagram.half(half).cell, diagram.beyond(half));
         let start = diagram.disk(diagram.half(half).from);
         let first = |edges: &[u32], end: Option<&Disk>| {
             self.first(edges, (right, left), start.as_ref(), end)
         };
         let mut next = match &far {
-            Some((edges, far)) => first(edges, Some(far))?,
+            Some(far) => self.first_before(left, right, start.as_ref(), far)?,
             None => self.first_near(left, right, start.as_ref())?,
         };
         for _ in 0..MOST_ROUNDS {
@@ -183,11 +224,45 @@ impl<'a> Merged<'a> {
         None
     }
 
+    /// The first disk that growing disks on an arc up to a vertex lead to.
+    fn first_before(
+        &self,
+        left: Member,
+        right: Member,
+        start: Option<&Disk>,
+        far: &Disk,
+    ) -> Option<Disk> {
+        let site = |member: Member| {
+            let (a, b) = self.members.ends(member);
+            if member.is_corner() { axis::Site::vertex(a) } else { axis::Site::edge(a, b) }
+        };
+        let place = |disk: &Disk| (disk.disk.position(), disk.disk.radius);
+        // An arc without a vertex at its start starts in the corner.
+        let from = start.map_or_else(|| (self.members.ends(left).0, 0.0), place);
+        let curve = Curve::new(&site(left), &site(right), from, place(far));
+        let all = self.tree.bounds();
+        let mut radius = from.1.max((all.max - all.min).norm() * NEAREST) * GROWTH;
+        while radius < far.disk.radius {
+            if let Some(u) = curve.parameters_at_radius(radius).into_iter().flatten().last() {
+                let (origin, centre) = (curve.point_at(u), Point::default());
+                let probe = TouchingDisk { origin, centre, radius, bound: f64::INFINITY };
+                let first = self.first(&self.near(&probe), (right, left), start, Some(far));
+                if first.is_some() {
+                    return first;
+                }
+            }
+            radius *= GROWTH;
+        }
+        let cutting = self.cutting(far, &self.near(&far.disk));
+        self.first(&cutting, (right, left), start, Some(far))
+    }
+
     /// The first disk that growing disks on an unbounded arc lead to.
     fn first_near(&self, left: Member, right: Member, start: Option<&Disk>) -> Option<Disk> {
         let ((l, l_end), (r, r_end)) = (self.members.ends(left), self.members.ends(right));
         let all = self.tree.bounds();
-        let largest = (all.max - all.min).norm() * FARTHEST;
+        let all_size = (all.max - all.min).norm();
+        let largest = all_size * FARTHEST;
         let (middle, way, half) = if right.is_corner() {
             let across = l - r;
             let length = across.norm();
@@ -196,7 +271,7 @@ impl<'a> Merged<'a> {
             let direction = (r_end - r) * (1.0 / (r_end - r).norm());
             (l_end, direction.perp(), 0.0)
         };
-        let size = (l_end - l).norm().max((r_end - r).norm()).max(largest * 2e-6) / 2.0;
+        let size = (l_end - l).norm().max((r_end - r).norm()).max(all_size * NEAREST) / 2.0;
         let mut radius = start.map_or(0.0, |s| s.disk.radius).max(half).max(size);
         loop {
             let along = (radius * radius - half * half).max(0.0).sqrt();
