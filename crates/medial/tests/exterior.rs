@@ -272,3 +272,15 @@ fn a_frame_that_is_none_is_refused() {
     let error = exterior(&domain, Engine::PathTracing, Some(-1.0), &Options::default());
     assert_eq!(error.unwrap_err(), EngineError::Frame { margin: -1.0 });
 }
+
+#[test]
+fn a_keypoint_on_the_frame_is_cut_off_however_it_is_rounded() {
+    // Between the tips of two triangles a keypoint lies at (9.5, -0.25), on the frame.
+    let wkt = "MULTIPOLYGON (((9 0, 9.5 1, 8.5 1, 9 0)), ((10 0, 10.5 1, 9.5 1, 10 0)))";
+    let domain = shapes::wkt(wkt);
+    let axis = outside(&domain, Some(0.25));
+    assert_eq!(check::defects(&domain, &axis).defects, []);
+    for (keypoint, degree) in axis.keypoints().iter().zip(axis.degrees()) {
+        assert_eq!(degree == 1, keypoint.kind == KeypointKind::Clipped || keypoint.radius == 0.0);
+    }
+}

@@ -268,3 +268,21 @@ fn normals_are_counted_with_the_edges() {
     let normals = voronoi.edges().iter().filter(|edge| edge.kind == EdgeKind::Normal).count();
     assert_eq!((voronoi.edges().len(), normals), (11, 2));
 }
+
+#[test]
+fn where_polygons_touch_the_one_that_holds_the_point_answers() {
+    let side = "MULTIPOLYGON (((0 0, 1 0, 1 1, 0 1, 0 0)), ((1 0, 2 0, 2 1, 1 1, 1 0)))";
+    let corner = "MULTIPOLYGON (((2 4, 3 6, 1 6, 2 4)), ((0 0, 4 0, 4 4, 0 4, 0 0)))";
+    for (wkt, p, polygon) in [(side, (1.2, 0.5), 1), (side, (0.8, 0.5), 0), (corner, (2.0, 3.5), 1)]
+    {
+        let domain = shapes::wkt(wkt);
+        let axes = [path_tracing(&domain).unwrap()];
+        for axes in [&axes[..], &[]] {
+            let voronoi = Voronoi::new(&domain, axes).unwrap();
+            let located = voronoi.locate(Point::new(p.0, p.1)).unwrap();
+            assert_eq!(located.region, Region::Interior, "{wkt} {p:?}");
+            let polygons: Vec<u32> = located.contacts.iter().map(|c| c.site.polygon).collect();
+            assert_eq!(polygons, [polygon], "{wkt} {p:?}");
+        }
+    }
+}

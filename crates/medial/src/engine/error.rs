@@ -23,7 +23,7 @@ pub enum EngineError {
     },
     /// The frame of an exterior axis does not lie around the polygons, or not within the numbers.
     #[error(
-        "a frame {margin:?} away from the polygons cannot be computed with; give a positive margin, in units of the input"
+        "a frame {margin:?} away from the polygons cannot be computed with; give a margin that is positive, no less than the rounding of their coordinates, and below 2^200"
     )]
     Frame {
         /// How far the box of the polygons was to grow.

@@ -49,9 +49,37 @@ pub(super) struct Clipped {
 impl Cut {
     /// What lies inside the frame; that is not governed by any wall.
     pub(super) fn new(frame: &Frame, axis: &MedialAxis, is_wall: impl Fn(u32) -> bool) -> Self {
-        let inside: Vec<bool> = axis.keypoints().iter().map(|k| frame.holds(k.position)).collect();
+        let mut inside: Vec<bool> =
+            axis.keypoints().iter().map(|k| frame.holds(k.position)).collect();
+        loop {
+            let cut = Self::with(frame, axis, &is_wall, &inside);
+            // A keypoint on the frame may be rounded to its inside, but not all of its paths.
+            let mut missing = axis.degrees();
+            let ends = cut.pieces.iter().flat_map(|piece| [piece.from, piece.to]);
+            for end in ends {
+                if let End::Keypoint(keypoint) = end {
+                    missing[keypoint as usize] -= 1;
+                }
+            }
+            let before = cut.kept.len();
+            for &keypoint in &cut.kept {
+                inside[keypoint as usize] = missing[keypoint as usize] == 0;
+            }
+            if inside.iter().filter(|&&inside| inside).count() == before {
+                return cut;
+            }
+        }
+    }
+
+    /// The same, given which keypoints are inside.
+    fn with(
+        frame: &Frame,
+        axis: &MedialAxis,
+        is_wall: impl Fn(u32) -> bool,
+        inside: &[bool],
+    ) -> Self {
         let mut cut = Self::default();
-        cut.kept.extend((0..).zip(&inside).filter(|&(_, &inside)| inside).map(|(k, _)| k));
+        cut.kept.extend((0..).zip(inside).filter(|&(_, &inside)| inside).map(|(k, _)| k));
         for path in axis.paths() {
             if is_wall(path.left) || is_wall(path.right) {
                 continue;

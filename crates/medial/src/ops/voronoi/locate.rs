@@ -335,7 +335,15 @@ fn located(ground: &Ground, parts: Few<Site>, p: Point) -> Located {
     let domain = ground.domain();
     let mut parts = one_for_each_place(domain, parts, p);
     parts.sort_by_key(|&part| ground.place(part));
-    let region = parts.first().map_or(Region::Exterior, |&part| region(ground, part, p));
+    // Where polygons touch, what another one has in the same place may turn its back on the point.
+    let own = Region::of(ground.side());
+    let mut regions: Few<Region> = parts.iter().map(|&part| region(ground, part, p)).collect();
+    if regions.contains(&own) && !regions.contains(&Region::Boundary) {
+        parts.retain(|part| region(ground, *part, p) == own);
+        regions.retain(|region| *region == own);
+    }
+    let on_boundary = regions.contains(&Region::Boundary).then_some(Region::Boundary);
+    let region = on_boundary.or(regions.first().copied()).unwrap_or(Region::Exterior);
     let foot = |part| match region {
         Region::Boundary => (0.0, p),
         _ => footpoint(p, domain.element(part)),
