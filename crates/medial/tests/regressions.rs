@@ -67,6 +67,11 @@ fn a_ring_on_a_path_is_met_first_with_a_part_that_does_not_touch_its_end() {
 }
 
 #[test]
+fn a_corner_at_the_least_whole_number_of_64_bits_is_no_short_one() {
+    is_right("issue_4_corner_at_minus_two_to_the_63.wkt");
+}
+
+#[test]
 fn an_edge_of_another_component_is_not_met_from_behind() {
     let text = read("issue_3_another_component_touched_from_behind.wkt");
     let options = Options { regroup: true, ..Options::default() };

@@ -47,7 +47,8 @@ enum Distance {
 /// A whole number of moderate size, in units of the last digit.
 fn whole(value: f64) -> Option<i64> {
     let whole = value as i64;
-    (whole as f64 == value && whole.abs() < 1 << 52).then_some(whole << DIGITS)
+    // A conversion saturates, at a number that has no negative.
+    (whole as f64 == value && whole.unsigned_abs() < 1 << 52).then_some(whole << DIGITS)
 }
 
 /// Two to the given exponent, which a normal double holds.
@@ -76,7 +77,7 @@ impl Grid {
 
     /// A point relative to the origin.
     fn local(&self, p: Point) -> Option<Integers> {
-        let fits = |multiple: i64| multiple.abs() < 1 << BITS;
+        let fits = |multiple: i64| multiple.unsigned_abs() < 1 << BITS;
         let local = if let Some(origin) = self.whole {
             Integers { x: whole(p.x)? - origin.x, y: whole(p.y)? - origin.y }
         } else {
@@ -110,7 +111,7 @@ impl Dyadic {
         let multiple = |value: f64| {
             let multiple = (value / unit + 0.5f64.copysign(value)) as i64;
             let is_near = (multiple as f64 * unit - value).abs() <= error + U * value.abs();
-            (is_near && multiple.abs() < 2 << BITS).then_some(multiple)
+            (is_near && multiple.unsigned_abs() < 2 << BITS).then_some(multiple)
         };
         let centre = Integers { x: multiple(centre.x)?, y: multiple(centre.y)? };
         let mut disk = Self { grid, centre, square: 0 };
