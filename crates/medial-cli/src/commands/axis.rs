@@ -1,5 +1,5 @@
 use super::features::{Run, layer};
-use super::sink::{Sink, draw, encode};
+use super::sink::{Sink, draw, encode, title};
 use crate::args::{AxisArgs, Height, Region, Sides};
 use crate::failure::{Failure, Status};
 use crate::input::Input;
@@ -26,7 +26,11 @@ pub fn run(args: &AxisArgs) -> Result<Status, Failure> {
     };
     let input = timed(&mut run.stages.read, || Input::read(&args.input))?;
     let layer = timed(&mut run.stages.read, || layer(&input, &args.input, &args.common))?;
-    let picture = Options { title: title(args), draw: args.draw.clone(), ..Options::default() };
+    let picture = Options {
+        title: title("Medial axis", &args.input),
+        draw: args.draw.clone(),
+        ..Options::default()
+    };
     let crs = layer.crs.clone();
     let mut sink = Sink::create(args.output.as_deref(), format, drawing, crs)?;
     let mut scenes = Vec::new();
@@ -117,14 +121,4 @@ fn output_format(args: &AxisArgs) -> Result<Format, Failure> {
         return usage(format!("a terminal shows no {format}; name a file with -o"));
     }
     Ok(format)
-}
-
-/// The line above a picture: the name of the input.
-fn title(args: &AxisArgs) -> String {
-    match args.input.file_name() {
-        Some(name) if args.input.as_os_str() != "-" => {
-            format!("Medial axis of {}", name.to_string_lossy())
-        }
-        _ => "Medial axis".to_owned(),
-    }
 }

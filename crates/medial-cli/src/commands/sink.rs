@@ -137,3 +137,11 @@ pub fn draw(format: Format, scenes: &[Scene], options: &Options) -> Result<Vec<u
         _ => Ok(Vec::new()),
     }
 }
+
+/// The line above a picture of something: what it is, and the name of the input.
+pub fn title(what: &str, input: &Path) -> String {
+    match input.file_name() {
+        Some(name) if input.as_os_str() != "-" => format!("{what} of {}", name.to_string_lossy()),
+        _ => what.to_owned(),
+    }
+}

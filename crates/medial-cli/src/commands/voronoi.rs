@@ -1,6 +1,6 @@
 use super::axis::{format_of, trace};
 use super::features::{Run, layer};
-use super::sink::Sink;
+use super::sink::{Sink, title};
 use crate::args::VoronoiArgs;
 use crate::failure::{Failure, Status};
 use crate::input::Input;
@@ -46,7 +46,10 @@ pub fn run(args: &VoronoiArgs) -> Result<Status, Failure> {
         timed(&mut write, || {
             let picture = match format {
                 Format::Svg => {
-                    let options = Options { title: title(args), ..Options::default() };
+                    let options = Options {
+                        title: title("Voronoi diagram", &args.input),
+                        ..Options::default()
+                    };
                     write_diagrams(&diagrams, &options)
                 }
                 _ => String::new(),
@@ -107,14 +110,4 @@ fn output_format(args: &VoronoiArgs) -> Result<Format, Failure> {
         return Err(Failure::Usage(why));
     }
     Ok(format)
-}
-
-/// The line above a picture: the name of the input.
-fn title(args: &VoronoiArgs) -> String {
-    match args.input.file_name() {
-        Some(name) if args.input.as_os_str() != "-" => {
-            format!("Voronoi diagram of {}", name.to_string_lossy())
-        }
-        _ => "Voronoi diagram".to_owned(),
-    }
 }

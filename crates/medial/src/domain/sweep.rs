@@ -19,7 +19,7 @@
 use super::rings::Rings;
 use super::status::{Found, NONE, Status};
 use super::{DomainError, NestingFault, Place};
-use crate::geom::{Point, orient2d};
+use crate::geom::{Point, order_key, orient2d};
 
 /// A piece of an edge between touches; parts count from the lexicographically smaller end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -76,20 +76,13 @@ pub(super) fn sweep(rings: &Rings, purpose: Purpose) -> Result<Arrangement, Doma
 fn events(rings: &Rings) -> Vec<(Point, u32)> {
     // Integers sort faster than points.
     let mut keys: Vec<(i64, u32)> =
-        rings.points.iter().zip(0..).map(|(point, vertex)| (key(point.x), vertex)).collect();
+        rings.points.iter().zip(0..).map(|(point, vertex)| (order_key(point.x), vertex)).collect();
     keys.sort_unstable();
-    let y = |vertex: u32| key(rings.point(vertex).y);
+    let y = |vertex: u32| order_key(rings.point(vertex).y);
     for same in keys.chunk_by_mut(|a, b| a.0 == b.0).filter(|same| same.len() > 1) {
         same.sort_unstable_by_key(|k| (y(k.1), k.1));
     }
     keys.into_iter().map(|(_, vertex)| (rings.point(vertex), vertex)).collect()
-}
-
-/// An integer that orders finite doubles.
-fn key(value: f64) -> i64 {
-    // Adding 0 turns -0 into 0. Of negative numbers all bits but the sign are turned round.
-    let bits = (value + 0.0).to_bits() as i64;
-    bits ^ (bits >> 63 & i64::MAX)
 }
 
 /// An edge as the sweep sees it.

@@ -22,4 +22,5 @@ pub use hilbert::hilbert;
 pub(crate) use orient::compare_lengths;
 pub use orient::{cross_directions, dot_directions, orient2d};
 pub use point::Point;
+pub(crate) use point::order_key;
 pub use rims::{Pinned, Rim};

@@ -14,6 +14,14 @@ pub struct Point {
     pub y: f64,
 }
 
+/// Whole numbers in the order of finite doubles, with one zero.
+#[inline]
+pub(crate) fn order_key(value: f64) -> i64 {
+    // Adding 0 turns -0 into 0. Of negative numbers all bits but the sign are turned round.
+    let bits = (value + 0.0).to_bits() as i64;
+    bits ^ (bits >> 63 & i64::MAX)
+}
+
 impl Point {
     /// The point with the given coordinates.
     #[inline]
@@ -108,5 +116,17 @@ impl Neg for Point {
     #[inline]
     fn neg(self) -> Self {
         Self::new(-self.x, -self.y)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn order_keys_are_in_the_order_of_the_numbers() {
+        let numbers = [-1e300, -2.5, -1.0, -1e-300, 0.0, 1e-300, 1.0, 2.5, 1e300];
+        assert!(numbers.windows(2).all(|pair| order_key(pair[0]) < order_key(pair[1])));
+        assert_eq!(order_key(-0.0), order_key(0.0));
     }
 }

@@ -23,6 +23,7 @@ use std::cmp::Ordering;
 
 use smallvec::SmallVec;
 
+use super::groups::Groups;
 use super::sheet::{NONE, Sheet};
 use crate::geom::predicates::{Element, ExactDisk};
 use crate::geom::{Point, cross_directions};
@@ -53,7 +54,10 @@ impl Hierarchy {
     pub fn new(sheet: &Sheet) -> Self {
         let (keypoints, paths) = (sheet.axis.keypoints(), sheet.axis.paths());
         let n = keypoints.len();
-        let ends = Ends::new(n, paths.iter().map(|path| [path.from, path.to]));
+        // The paths at each keypoint.
+        let ends = Groups::new(n, || {
+            (0..).zip(paths.iter()).flat_map(|(k, path)| [(path.from, k), (path.to, k)])
+        });
         let kept = forest(sheet);
         let (first_gap, gaps) = gaps(sheet, &ends);
         let mut hierarchy =
@@ -63,7 +67,7 @@ impl Hierarchy {
     }
 
     /// Chooses the keypoint that halves each tree, and so on in its parts.
-    fn halve(&mut self, sheet: &Sheet, ends: &Ends) {
+    fn halve(&mut self, sheet: &Sheet, ends: &Groups) {
         let n = self.above.len() as u32;
         let mut order: Vec<(u32, u32)> = Vec::new();
         let mut size = vec![0_u32; n as usize];
@@ -105,7 +109,7 @@ impl Hierarchy {
     fn beside<'h>(
         &'h self,
         sheet: &'h Sheet,
-        ends: &'h Ends,
+        ends: &'h Groups,
         keypoint: u32,
     ) -> impl Iterator<Item = u32> + 'h {
         let paths = ends.of(keypoint).iter().filter(|&&path| self.kept[path as usize]);
@@ -224,7 +228,7 @@ fn other_end(sheet: &Sheet, path: u32, end: u32) -> u32 {
 }
 
 /// The path in the gap behind each governor of each keypoint, with where those of each start.
-fn gaps(sheet: &Sheet, ends: &Ends) -> (Vec<u32>, Vec<u32>) {
+fn gaps(sheet: &Sheet, ends: &Groups) -> (Vec<u32>, Vec<u32>) {
     let axis = sheet.axis;
     let n = axis.keypoints().len() as u32;
     let mut first_gap = Vec::with_capacity(n as usize + 1);
@@ -279,33 +283,4 @@ fn root_of(root: &mut [u32], mut k: u32) -> u32 {
         k = next;
     }
     k
-}
-
-/// The paths at each keypoint.
-struct Ends {
-    first: Vec<u32>,
-    paths: Vec<u32>,
-}
-
-impl Ends {
-    fn new(keypoints: usize, paths: impl Iterator<Item = [u32; 2]> + Clone) -> Self {
-        let ends = || (0..).zip(paths.clone()).flat_map(|(k, ends)| ends.map(|end| (k, end)));
-        let mut first = vec![0_u32; keypoints + 1];
-        ends().for_each(|(_, end)| first[end as usize + 1] += 1);
-        for k in 1..first.len() {
-            first[k] += first[k - 1];
-        }
-        let mut place = first.clone();
-        let mut sorted = vec![0; first[keypoints] as usize];
-        for (path, end) in ends() {
-            sorted[place[end as usize] as usize] = path;
-            place[end as usize] += 1;
-        }
-        Self { first, paths: sorted }
-    }
-
-    fn of(&self, keypoint: u32) -> &[u32] {
-        let k = keypoint as usize;
-        &self.paths[self.first[k] as usize..self.first[k + 1] as usize]
-    }
 }

@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use super::groups::Groups;
 use super::sheet::{NONE, Sheet};
 use super::{Cell, VoronoiError};
 use crate::axis::{KeypointKind, Side};
@@ -192,7 +193,10 @@ impl Graph {
     /// Links the edges from this one on to cells; gives the number of the cell of each site.
     fn add_cells(&mut self, sheet: &Sheet, first_edge: u32) -> Result<Vec<u32>, VoronoiError> {
         let sites = sheet.n_sites();
-        let by_site = BySite::new(self, first_edge, sites);
+        // The pieces around each site, from those of the edges from `first_edge` on.
+        let by_site = Groups::new(sites, || {
+            self.pieces(first_edge).filter_map(|piece| Some((self.left(piece)?, piece)))
+        });
         let mut cell_of = vec![NONE; sites];
         let mut links = Links::new(self.points.len());
         for &element in &sheet.elements {
@@ -313,35 +317,5 @@ impl Corners {
             graph.points.push(VoronoiPoint { position, radius: 0.0, kind: PointKind::Corner });
         }
         *point
-    }
-}
-
-/// The pieces around each site, in no order.
-struct BySite {
-    first: Vec<u32>,
-    pieces: Vec<u32>,
-}
-
-impl BySite {
-    /// Sorts the pieces of the edges from `first_edge` on.
-    fn new(graph: &Graph, first_edge: u32, sites: usize) -> Self {
-        let pieces = || graph.pieces(first_edge).filter_map(|p| Some((p, graph.left(p)?)));
-        let mut first = vec![0_u32; sites + 1];
-        pieces().for_each(|(_, site)| first[site as usize + 1] += 1);
-        for k in 1..first.len() {
-            first[k] += first[k - 1];
-        }
-        let mut place = first.clone();
-        let mut sorted = vec![0; first[sites] as usize];
-        for (piece, site) in pieces() {
-            sorted[place[site as usize] as usize] = piece;
-            place[site as usize] += 1;
-        }
-        Self { first, pieces: sorted }
-    }
-
-    fn of(&self, site: u32) -> &[u32] {
-        let range = self.first[site as usize]..self.first[site as usize + 1];
-        &self.pieces[range.start as usize..range.end as usize]
     }
 }

@@ -27,6 +27,7 @@ mod descent;
 mod error;
 mod frame;
 mod graph;
+mod groups;
 mod locate;
 mod nearest;
 mod sheet;
