@@ -2,10 +2,12 @@
 
 mod support;
 
+use std::num::NonZeroUsize;
+
 use medial::axis::{Engine, KeypointKind, MedialAxis, Side};
 use medial::check::{self, Defect};
 use medial::domain::{self, Domain};
-use medial::engine::{EngineError, Options, exterior};
+use medial::engine::{EngineError, Options, both_sides, exterior, interior};
 use medial::geom::Point;
 use support::parts::Parts;
 use support::random::{self, Family, Ground, Random};
@@ -164,10 +166,30 @@ fn faults(domain: &Domain) -> Vec<String> {
             let defects = check::defects(domain, &other).defects;
             faults.extend(defects.iter().map(|d| format!("judge on divide_and_conquer: {d}")));
             faults.extend(compare::differences(&axis, &other));
+            faults.extend(other_than_both(domain, &other));
         }
         Err(why) => faults.push(format!("divide_and_conquer: {why}")),
     }
     faults
+}
+
+/// Whether both sides at once are something else than each side alone, on one thread or several.
+fn other_than_both(domain: &Domain, outside: &MedialAxis) -> Vec<String> {
+    let engine = Engine::DivideAndConquer;
+    let inside = interior(domain, engine, &Options::default());
+    let shared = |threads: usize| {
+        let threads = NonZeroUsize::new(threads).unwrap();
+        let options = Options { threads, alone_below: 0, ..Options::default() };
+        match both_sides(domain, engine, None, &options) {
+            Ok([_, o]) if o != *outside => Some(format!("{threads} threads: another outside")),
+            Ok([i, _]) if Ok(&i) != inside.as_ref() => {
+                Some(format!("{threads} threads: another inside"))
+            }
+            Ok(_) => None,
+            Err(why) => Some(format!("both sides, {threads} threads: {why}")),
+        }
+    };
+    [1, 3].into_iter().filter_map(shared).collect()
 }
 
 /// Tries this many valid random shapes, one in three changed by a hair.

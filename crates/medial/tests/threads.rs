@@ -8,17 +8,17 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
 use std::time::Duration;
 
-use medial::axis::MedialAxis;
+use medial::axis::Engine;
 use medial::domain::{self, Domain};
-use medial::engine::{EngineError, Options, path_tracing, path_tracing_with};
+use medial::engine::{EngineError, Options, interior};
 use medial::geom::Point;
 use support::random::{Family, Ground, Random, large_shape};
 use support::shapes::{self, Polygons};
 
-/// The axis by several threads, however small the domain is.
-fn shared(domain: &Domain, threads: usize) -> Result<MedialAxis, EngineError> {
+/// Several threads, however small the domain is.
+fn shared(threads: usize) -> Options<'static> {
     let threads = NonZeroUsize::new(threads).unwrap();
-    path_tracing_with(domain, &Options { threads, alone_below: 0, ..Options::default() })
+    Options { threads, alone_below: 0, ..Options::default() }
 }
 
 /// Compares the axes by several numbers of threads with that by one, several times; false if the
@@ -29,15 +29,17 @@ fn all_agree(name: &str, polygons: &Polygons, rounds: usize) -> bool {
     else {
         return false;
     };
-    let alone = path_tracing(&domain);
-    for round in 0..rounds {
-        for threads in [2, 3, 8] {
-            let together = shared(&domain, threads);
-            assert!(
-                together == alone,
-                "{name}: round {round}, {threads} threads: {}",
-                shapes::to_wkt(polygons)
-            );
+    for &engine in Engine::ALL {
+        let alone = interior(&domain, engine, &Options::default());
+        for round in 0..rounds {
+            for threads in [2, 3, 8] {
+                let together = interior(&domain, engine, &shared(threads));
+                assert!(
+                    together == alone,
+                    "{name}: {engine:?}, round {round}, {threads} threads: {}",
+                    shapes::to_wkt(polygons)
+                );
+            }
         }
     }
     true
@@ -138,7 +140,10 @@ fn many_polygons_have_one_axis() {
     let domain = shapes::of(&polygons).unwrap();
     let threads = NonZeroUsize::new(3).unwrap();
     let options = Options { threads, alone_below: 150, ..Options::default() };
-    assert_eq!(path_tracing_with(&domain, &options), path_tracing(&domain));
+    for &engine in Engine::ALL {
+        let alone = interior(&domain, engine, &Options::default());
+        assert_eq!(interior(&domain, engine, &options), alone);
+    }
 }
 
 #[test]
@@ -151,7 +156,7 @@ fn the_same_shape_has_one_axis_many_times() {
 #[test]
 fn all_threads_stop_when_cancelled() {
     let domain = shapes::of(&[vec![star(&mut Random(5), 100_000)]]).unwrap();
-    for threads in [2, 8] {
+    for (engine, threads) in Engine::ALL.iter().flat_map(|&e| [(e, 2), (e, 8)]) {
         let cancel = AtomicBool::new(false);
         let threads = NonZeroUsize::new(threads).unwrap();
         let options = Options { threads, cancel: Some(&cancel), ..Options::default() };
@@ -160,7 +165,7 @@ fn all_threads_stop_when_cancelled() {
                 thread::sleep(Duration::from_millis(1));
                 cancel.store(true, Ordering::Relaxed);
             });
-            path_tracing_with(&domain, &options).unwrap_err()
+            interior(&domain, engine, &options).unwrap_err()
         });
         assert_eq!(error, EngineError::Cancelled);
     }

@@ -7,7 +7,7 @@ use crate::report::Entry;
 use crate::timings::timed;
 use medial::axis::{Engine, MedialAxis, Side};
 use medial::domain::Domain;
-use medial::engine::{self, EngineError, exterior, interior};
+use medial::engine::{self, EngineError, both_sides, exterior, interior};
 use medial_io::svg::Options;
 use medial_io::{Drawing, Format};
 use std::io::IsTerminal as _;
@@ -65,8 +65,12 @@ pub fn trace(
     domain: &Domain,
     options: &engine::Options<'_>,
 ) -> Result<Vec<MedialAxis>, Entry> {
-    let of_side = |&side: &Side| on_side(side, region, domain, engine, options);
-    let axes: Result<_, EngineError> = region.side.all().iter().map(of_side).collect();
+    let alone = |side| on_side(side, region, domain, engine, options).map(|axis| vec![axis]);
+    let axes = match region.side {
+        Sides::Interior => alone(Side::Interior),
+        Sides::Exterior => alone(Side::Exterior),
+        Sides::Both => both_sides(domain, engine, region.frame, options).map(Vec::from),
+    };
     axes.map_err(|error| Entry::unfinished(&error))
 }
 

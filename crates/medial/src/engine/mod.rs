@@ -7,13 +7,14 @@ mod error;
 mod exterior;
 mod options;
 mod path_tracing;
+mod threads;
 mod watch;
 
 pub use divide_and_conquer::{
     Work, divide_and_conquer, divide_and_conquer_counted, divide_and_conquer_with,
 };
 pub use error::EngineError;
-pub use exterior::{exterior, exterior_frame, interior};
+pub use exterior::{both_sides, exterior, exterior_frame, interior};
 pub use options::Options;
 pub use path_tracing::{
     Candidate, Step, Steps, path_tracing, path_tracing_steps, path_tracing_with,

@@ -1,6 +1,7 @@
 //! Diagrams as lists of the arcs around each cell.
 
 use std::cell::Cell;
+use std::ops::{Index, IndexMut, Range};
 
 use super::disks::Disk;
 use super::elements::{Flank, Member};
@@ -31,25 +32,75 @@ pub(super) struct Diagram {
     pub halves: Vec<Half>,
     /// The disk of each vertex, by three of the elements that it touches.
     pub vertices: Vec<Disk>,
-    /// The first and the last arc around each cell.
-    pub ends: Vec<[u32; 2]>,
+    pub ends: Ends,
     /// How many pieces of merge curves were followed.
     pub pieces: usize,
     /// How many arcs were looked at.
     pub arcs: Cell<usize>,
 }
 
+/// The first and the last arc around each cell, by the number of the member.
+#[derive(Debug)]
+pub(super) struct Ends {
+    /// The number of the first one.
+    first: usize,
+    ends: Vec<[u32; 2]>,
+}
+
+impl Ends {
+    fn new(edges: Range<u32>) -> Self {
+        Self { first: 4 * edges.start as usize, ends: vec![[NONE; 2]; 4 * edges.len()] }
+    }
+
+    pub fn len(&self) -> usize {
+        self.ends.len()
+    }
+}
+
+impl Index<usize> for Ends {
+    type Output = [u32; 2];
+
+    #[inline]
+    fn index(&self, member: usize) -> &[u32; 2] {
+        &self.ends[member - self.first]
+    }
+}
+
+impl IndexMut<usize> for Ends {
+    #[inline]
+    fn index_mut(&mut self, member: usize) -> &mut [u32; 2] {
+        &mut self.ends[member - self.first]
+    }
+}
+
 impl Diagram {
-    /// Room for the diagrams of so many edges.
-    pub fn with_room(n_edges: u32) -> Self {
-        let n = n_edges as usize;
+    /// Room for the diagrams of these edges.
+    pub fn with_room(edges: Range<u32>) -> Self {
+        let n = edges.len();
         Self {
             halves: Vec::with_capacity(24 * n),
             vertices: Vec::with_capacity(6 * n),
-            ends: vec![[NONE; 2]; 4 * n],
+            ends: Ends::new(edges),
             pieces: 0,
             arcs: Cell::new(0),
         }
+    }
+
+    /// Takes in the diagrams of the edges that follow, made apart.
+    pub fn append(&mut self, next: Self) {
+        let (n_halves, n_vertices) = (self.halves.len() as u32, self.vertices.len() as u32);
+        let moved = |number: u32, by: u32| if number < INFINITE { number + by } else { number };
+        self.halves.extend(next.halves.iter().map(|half| Half {
+            cell: half.cell,
+            from: moved(half.from, n_vertices),
+            next: moved(half.next, n_halves),
+            prev: moved(half.prev, n_halves),
+        }));
+        self.vertices.extend(next.vertices);
+        let ends = next.ends.ends.iter();
+        self.ends.ends.extend(ends.map(|ends| ends.map(|half| moved(half, n_halves))));
+        self.pieces += next.pieces;
+        self.arcs.set(self.arcs.get() + next.arcs.get());
     }
 
     /// Adds the diagram of a single edge: four cells, with four arcs between them, the normals at both

@@ -4,6 +4,7 @@ use super::exact::Exacts;
 use super::infinity::turn;
 use super::touches;
 use crate::domain::{Domain, Edge, Site};
+use crate::engine::EngineError;
 use crate::geom::predicates::Element;
 use crate::geom::{Governor, Point};
 
@@ -52,6 +53,38 @@ impl Member {
     }
 }
 
+/// What threads share of the elements of a domain.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Ground<'a> {
+    pub domain: &'a Domain,
+    lines: &'a [Line],
+    /// Whether the boundary touches itself anywhere.
+    pub touches: bool,
+}
+
+impl<'a> Ground<'a> {
+    /// # Errors
+    /// [`EngineError::TooLarge`] if its arcs cannot be numbered.
+    pub fn new(domain: &'a Domain, lines: &'a [Line]) -> Result<Self, EngineError> {
+        // Four elements an edge, and some arcs for each.
+        let n_edges = domain.edges().len();
+        if u32::try_from(n_edges).is_ok_and(|n| n < u32::MAX / 64) {
+            Ok(Self { domain, lines, touches: touches::any(domain) })
+        } else {
+            Err(EngineError::TooLarge { n_edges })
+        }
+    }
+
+    /// The elements for one thread.
+    pub fn members<'e>(&self, exacts: &'e Exacts) -> Members<'e>
+    where
+        'a: 'e,
+    {
+        let Self { domain, lines, touches } = *self;
+        Members { domain, exacts, lines, touches }
+    }
+}
+
 /// The elements of a domain.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Members<'a> {
@@ -83,10 +116,6 @@ impl Line {
 }
 
 impl<'a> Members<'a> {
-    pub fn new(domain: &'a Domain, lines: &'a [Line], exacts: &'a Exacts) -> Self {
-        Self { domain, exacts, lines, touches: touches::any(domain) }
-    }
-
     /// Whether one side goes straight on where another one ends, in either order.
     #[inline]
     pub fn is_straight(&self, a: Member, b: Member) -> bool {

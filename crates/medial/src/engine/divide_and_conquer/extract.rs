@@ -34,7 +34,8 @@ pub(super) fn axis(
                     place: members.ends(cell).0,
                 })?;
                 let beyond = diagram.beyond(half);
-                if half & 1 == 0 && !members.is_normal(cell, beyond) {
+                // Once, as seen from the smaller one, whichever was there first.
+                if cell < beyond && !members.is_normal(cell, beyond) {
                     let (left, right) = (members.site(cell), members.site(beyond));
                     let ends = [
                         keypoint(members, diagram, &mut traced, &mut number, half)?,

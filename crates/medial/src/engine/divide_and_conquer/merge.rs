@@ -12,6 +12,7 @@ use smallvec::SmallVec;
 use super::diagram::{APEX, Diagram, INFINITE, NONE};
 use super::disks::Disk;
 use super::elements::{Flank, Member, Members};
+use super::forest::Asked;
 use super::infinity::{Gap, turn};
 use super::look::{Ahead, Hand};
 use crate::domain::Corner;
@@ -131,6 +132,8 @@ pub(super) struct Merge<'m, 'a> {
     pub diagram: &'m mut Diagram,
     pub joints: &'m [Joint],
     pub watch: &'m Watch<'m>,
+    /// What is asked of the last merge of a ring.
+    pub asked: Asked,
 }
 
 /// Where the curve around a ring crosses an arc of the ring's own diagram.
@@ -204,7 +207,7 @@ impl<'m, 'a> Merge<'m, 'a> {
         joints: &'m [Joint],
         watch: &'m Watch<'m>,
     ) -> Self {
-        Self { members, diagram, joints, watch }
+        Self { members, diagram, joints, watch, asked: Asked::Left }
     }
 
     /// Merges the diagrams.
@@ -212,8 +215,8 @@ impl<'m, 'a> Merge<'m, 'a> {
         let joints = self.joints;
         let mut met: SmallVec<[(usize, Flank); 4]> = SmallVec::new();
         for (k, joint) in joints.iter().enumerate() {
-            // Nobody asks for the right side of a closed ring.
-            let is_asked = |flank: &&Flank| joints.len() == 1 || **flank == Flank::Left;
+            let both = joints.len() == 1 || self.asked == Asked::Both;
+            let is_asked = |flank: &&Flank| both || **flank == Flank::Left;
             for &flank in joint.flanks.iter().filter(is_asked) {
                 if met.contains(&(k, flank)) {
                     continue;

@@ -74,6 +74,7 @@ mod disks;
 mod elements;
 mod exact;
 mod extract;
+mod forest;
 mod infinity;
 mod look;
 mod merge;
@@ -81,19 +82,21 @@ mod order;
 mod pairs;
 mod rings;
 mod touches;
+mod turned;
 mod work;
 
 pub use work::Work;
 
 use super::watch::Watch;
-use super::{EngineError, Options};
+use super::{EngineError, Options, threads};
 use crate::axis::MedialAxis;
-use crate::domain::Domain;
-use crate::geom::{BoundsTree, Rect};
+use crate::domain::{Complement, Domain};
+use crate::geom::{BoundsTree, Point, Rect};
 use diagram::Diagram;
-use elements::{Line, Members};
+use elements::{Ground, Line};
 use exact::Exacts;
-use merge::{Joint, Merge};
+use forest::Asked;
+use merge::Merge;
 use rings::Merged;
 
 /// The exact medial axis of the interior of a domain: a second engine, which searches in another way.
@@ -105,7 +108,7 @@ pub fn divide_and_conquer(domain: &Domain) -> Result<MedialAxis, EngineError> {
     divide_and_conquer_with(domain, &Options::default())
 }
 
-/// The same within limits, on one thread.
+/// The same on several threads, and within limits. The axis is the same bit for bit.
 ///
 /// # Errors
 /// As [`divide_and_conquer`]; and [`EngineError::Cancelled`] or [`EngineError::TimeLimit`].
@@ -138,84 +141,79 @@ pub fn divide_and_conquer_counted(domain: &Domain) -> Result<(MedialAxis, Work),
     run(domain, &Options::default())
 }
 
-fn run(domain: &Domain, options: &Options<'_>) -> Result<(MedialAxis, Work), EngineError> {
-    let n_edges = domain.edges().len();
-    // Four elements an edge, and some arcs for each.
-    let n = u32::try_from(n_edges).ok().filter(|n| *n < u32::MAX / 64);
-    let n = n.ok_or(EngineError::TooLarge { n_edges })?;
+/// The exact medial axes of the interior of a domain and of the outside within walls, whose edges come
+/// first, from diagrams of rings that are made once; `None` where boundaries touch, since the outside has
+/// other walks then.
+pub(super) fn both_sides(
+    domain: &Domain,
+    outside: &Complement,
+    options: &Options<'_>,
+) -> Result<Option<[MedialAxis; 2]>, EngineError> {
     let watch = Watch::new(options);
-    let (lines, exacts) = (Line::all(domain), Exacts::new());
-    let members = Members::new(domain, &lines, &exacts);
-    let mut diagram = Diagram::with_room(n);
+    let [lines, lines_outside] = [domain, outside.domain()].map(Line::all);
+    let ground = Ground::new(domain, &lines)?;
+    let ground_outside = Ground::new(outside.domain(), &lines_outside)?;
+    if ground.touches || ground_outside.touches {
+        return Ok(None);
+    }
+    let rings = forest::of_all(ground, Asked::Both, options, &watch)?;
+    let (exacts, exacts_outside) = (Exacts::new(), Exacts::new());
+    let members = [ground.members(&exacts), ground_outside.members(&exacts_outside)];
+    let turned = turned::outside(members[0], &rings, outside, members[1]);
+    let place = domain.edges().first().map_or(Point::default(), |edge| edge.start);
+    let turned = turned.ok_or(EngineError::Internal { stage: "turning a diagram", place })?;
+    // The walls come first, and have no diagram yet.
+    let sides = vec![(ground, rings, 0), (ground_outside, turned, 1)];
+    let finish = |(ground, diagram, first_made): (Ground<'_>, _, _), watch: &Watch<'_>| {
+        finish(ground, diagram, first_made, watch).map(|(axis, _)| axis)
+    };
+    let axes = threads::each(options, &watch, sides, finish)?;
+    Ok(<[MedialAxis; 2]>::try_from(axes).ok())
+}
+
+fn run(domain: &Domain, options: &Options<'_>) -> Result<(MedialAxis, Work), EngineError> {
+    let watch = Watch::new(options);
+    let lines = Line::all(domain);
+    let ground = Ground::new(domain, &lines)?;
+    let n = domain.edges().len();
+    if threads::number(options) > 1 && n >= options.alone_below {
+        finish(ground, forest::of_all(ground, Asked::Left, options, &watch)?, 0, &watch)
+    } else {
+        finish(ground, Diagram::with_room(0..n as u32), domain.walks().len(), &watch)
+    }
+}
+
+/// The axis of a domain, given a diagram of all walks from one of them on, by themselves.
+fn finish(
+    ground: Ground<'_>,
+    mut diagram: Diagram,
+    first_made: usize,
+    watch: &Watch<'_>,
+) -> Result<(MedialAxis, Work), EngineError> {
+    let domain = ground.domain;
+    let exacts = Exacts::new();
+    let members = ground.members(&exacts);
     let has_holes = domain.walks().iter().any(|walk| walk.hole);
     let tree = has_holes.then(|| {
-        BoundsTree::new(0, n, |k| Rect::EMPTY.with(domain.edge(k).start).with(domain.end(k)))
+        BoundsTree::new(0, domain.edges().len() as u32, |k| {
+            Rect::EMPTY.with(domain.edge(k).start).with(domain.end(k))
+        })
     });
     let mut merged = tree.as_ref().map(|tree| Merged::new(members, tree));
     for k in order::of_walks(domain) {
         let walk = &domain.walks()[k as usize];
-        let rings = touches::simple_rings(members, walk);
-        for ring in &rings {
-            close_ring(members, &mut diagram, ring, &watch)?;
+        if (k as usize) < first_made {
+            forest::close_walk(members, &mut diagram, walk, Asked::Left, watch)?;
         }
-        touches::merge(members, &mut diagram, walk, &rings, &watch)?;
         if let Some(merged) = &mut merged {
             if walk.hole {
                 let crossing = merged.crossing(&diagram, walk)?;
-                Merge::new(members, &mut diagram, &[], &watch).close(crossing)?;
+                Merge::new(members, &mut diagram, &[], watch).close(crossing)?;
             }
             merged.add(k);
         }
     }
-    let axis = extract::axis(members, &diagram, &watch)?;
+    let axis = extract::axis(members, &diagram, watch)?;
     let starts = merged.map_or(0, |merged| merged.looked());
     Ok((axis, Work { pieces: diagram.pieces, arcs: diagram.arcs.get(), starts }))
-}
-
-/// Merges the edges of a simple ring, chains of one length two at a time [Lee82, Fig. 8], each as soon as
-/// it is there: so what is merged was made a moment ago.
-fn close_ring(
-    members: Members<'_>,
-    diagram: &mut Diagram,
-    ring: &[u32],
-    watch: &Watch<'_>,
-) -> Result<(), EngineError> {
-    let joint = |after: usize| Joint::new(&members, [ring[after - 1], ring[after]], true);
-    let len = ring.len();
-    for done in 1..=len {
-        // The last chain starts with this edge of the ring.
-        let mut start = done - 1;
-        if done % 2 == 0 {
-            match joint(start).convex() {
-                Some(convex) => {
-                    let place = members.domain.edge(ring[start]).start;
-                    let broken = EngineError::Internal { stage: "joining two edges", place };
-                    let pair = [ring[start - 1], ring[start]];
-                    diagram.add_pair(&members, pair, convex).ok_or(broken)?;
-                    start -= 1;
-                }
-                None => [start - 1, start].into_iter().for_each(|k| diagram.add_edge(ring[k])),
-            }
-        } else if done == len {
-            diagram.add_edge(ring[start]);
-        } else {
-            continue;
-        }
-        while start > 0 {
-            // As many edges as the chain before it has.
-            let size = 1 << start.trailing_zeros();
-            if done - start < size && done < len {
-                break;
-            }
-            let inner = joint(start);
-            start -= size;
-            if start == 0 && done == len {
-                let last = Joint::new(&members, [ring[len - 1], ring[0]], false);
-                Merge::new(members, diagram, &[inner, last], watch).run()?;
-            } else {
-                Merge::new(members, diagram, &[inner], watch).run()?;
-            }
-        }
-    }
-    Ok(())
 }

@@ -20,8 +20,9 @@
 mod cut;
 mod frame;
 
+use super::divide_and_conquer::{self, divide_and_conquer_with};
 use super::draft::site_record;
-use super::{EngineError, Options, divide_and_conquer_with, path_tracing_with};
+use super::{EngineError, Options, path_tracing_with};
 use crate::axis::{Accuracy, Engine, KeypointKind, MedialAxis, Path, Side};
 use crate::domain::{Complement, Domain, Site};
 use crate::geom::{Point, Rect};
@@ -74,14 +75,58 @@ pub fn exterior(
     options: &Options<'_>,
 ) -> Result<MedialAxis, EngineError> {
     let frame = Frame::around(domain, margin)?;
-    let place = domain.edges().first().map_or(Point::default(), |edge| edge.start);
-    let broken = |stage| EngineError::Internal { stage, place };
-    let outside = Complement::new(domain, &frame.walls())
-        .map_err(|_| broken("turning a domain inside out"))?;
+    let outside = complement(domain, &frame)?;
     let whole = interior(outside.domain(), engine, options)?;
-    let sites = sites_of(&outside, &whole).ok_or(broken("naming the sites of the outside"))?;
-    let cut = Cut::new(&frame, &whole, |site| outside.is_frame(sites[site as usize].index()));
-    assemble(&outside, &whole, &sites, &cut).ok_or(broken("cutting paths at the frame"))
+    within(&frame, &outside, &whole)
+}
+
+/// Both axes, as [`interior`] and [`exterior`] give them.
+///
+/// `divide_and_conquer` makes the diagrams of the rings once for both sides, unless boundaries touch;
+/// with several threads each side is finished by one.
+///
+/// # Errors
+/// Those of [`exterior`].
+pub fn both_sides(
+    domain: &Domain,
+    engine: Engine,
+    margin: Option<f64>,
+    options: &Options<'_>,
+) -> Result<[MedialAxis; 2], EngineError> {
+    let frame = Frame::around(domain, margin)?;
+    let outside = complement(domain, &frame)?;
+    let at_once = match engine {
+        Engine::DivideAndConquer => divide_and_conquer::both_sides(domain, &outside, options)?,
+        Engine::PathTracing => None,
+    };
+    let [inner, whole] = match at_once {
+        Some(axes) => axes,
+        None => [interior(domain, engine, options)?, interior(outside.domain(), engine, options)?],
+    };
+    Ok([inner, within(&frame, &outside, &whole)?])
+}
+
+/// An error of ours, somewhere at a domain.
+fn broken(domain: &Domain, stage: &'static str) -> EngineError {
+    let place = domain.edges().first().map_or(Point::default(), |edge| edge.start);
+    EngineError::Internal { stage, place }
+}
+
+fn complement(domain: &Domain, frame: &Frame) -> Result<Complement, EngineError> {
+    Complement::new(domain, &frame.walls())
+        .map_err(|_| broken(domain, "turning a domain inside out"))
+}
+
+/// The exterior axis, of the axis of the complement within walls.
+fn within(
+    frame: &Frame,
+    outside: &Complement,
+    whole: &MedialAxis,
+) -> Result<MedialAxis, EngineError> {
+    let broken = |stage| broken(outside.domain(), stage);
+    let sites = sites_of(outside, whole).ok_or(broken("naming the sites of the outside"))?;
+    let cut = Cut::new(frame, whole, |site| outside.is_frame(sites[site as usize].index()));
+    assemble(outside, whole, &sites, &cut).ok_or(broken("cutting paths at the frame"))
 }
 
 /// The rectangle at which [`exterior`] cuts the axis with this margin.

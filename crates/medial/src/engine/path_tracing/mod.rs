@@ -38,6 +38,7 @@ mod holes;
 mod met;
 mod nearby;
 mod order;
+#[cfg(feature = "parallel")]
 mod parallel;
 mod probe;
 mod rings;
@@ -74,6 +75,7 @@ pub fn path_tracing_with(
     domain: &Domain,
     options: &Options<'_>,
 ) -> Result<MedialAxis, EngineError> {
+    #[cfg(feature = "parallel")]
     if options.threads.get() > 1 && domain.edges().len() >= options.alone_below {
         // What several hands could not finish, one finishes with more care.
         match parallel::trace(domain, options) {
