@@ -1,5 +1,6 @@
 //! The keypoints of an axis with their governors: most have three, which are kept side by side.
 
+#[cfg(feature = "parallel")]
 use std::ops::Range;
 
 use super::views::view;
@@ -34,6 +35,7 @@ impl KeypointTable {
     }
 
     /// Makes room for some more keypoints.
+    #[cfg(feature = "parallel")]
     pub fn reserve(&mut self, keypoints: usize) {
         self.disks.reserve(keypoints);
         self.kinds.reserve(keypoints);
@@ -72,6 +74,7 @@ impl KeypointTable {
     }
 
     /// Adds keypoints of another table.
+    #[cfg(feature = "parallel")]
     pub fn copy(&mut self, other: &Self, keypoints: Range<u32>) {
         let range = keypoints.start as usize..keypoints.end as usize;
         self.disks.extend_from_slice(&other.disks[range.clone()]);

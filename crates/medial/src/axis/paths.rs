@@ -78,6 +78,7 @@ impl PathTable {
     }
 
     /// Adds the paths of another table, between the same keypoints.
+    #[cfg(feature = "parallel")]
     pub fn append(&mut self, other: &Self) {
         let first = self.len();
         self.ends.extend_from_slice(&other.ends);

@@ -7,7 +7,7 @@ use crate::axis::{Keypoint, KeypointKind};
 use crate::domain::{Domain, Site};
 use crate::engine::EngineError;
 use crate::engine::draft::{Fixed, PLACED};
-pub(super) use crate::engine::draft::{Mark, Traced, axis_of, site_record};
+pub(super) use crate::engine::draft::{Mark, Traced};
 
 impl Traced {
     /// Adds a transition that was passed on a path.

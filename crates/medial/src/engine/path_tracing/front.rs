@@ -28,6 +28,7 @@ impl Front {
     }
 
     /// First and last edge ahead; they wrap around the walk where the first one is greater.
+    #[cfg(feature = "parallel")]
     pub fn ends(&self) -> (u32, u32) {
         (self.first, self.last)
     }

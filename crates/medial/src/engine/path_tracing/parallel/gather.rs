@@ -5,12 +5,12 @@ use std::sync::atomic::{AtomicU32, AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 use std::thread;
 
-use super::super::finish::{axis_of, site_record};
 use super::replay::Piece;
 use super::worker::{End, Share};
 use crate::axis::{self, Engine, KeypointTable, MedialAxis, Path, PathTable, SiteTable};
 use crate::domain::{Domain, Site};
 use crate::engine::EngineError;
+use crate::engine::draft::{axis_of, site_record};
 use crate::engine::watch::Watch;
 
 /// Sites after which the clock is looked at.
