@@ -4,7 +4,7 @@ mod support;
 
 use std::num::NonZeroUsize;
 
-use medial::axis::{Engine, KeypointKind, MedialAxis, Side};
+use medial::axis::{Engine, KeypointKind, MedialAxis, Side, Site};
 use medial::check::{self, Defect};
 use medial::domain::{self, Domain};
 use medial::engine::{EngineError, Options, both_sides, exterior, interior};
@@ -224,6 +224,60 @@ fn random_shapes_have_an_exterior_axis() {
 fn lattices_that_touch_have_an_exterior_axis() {
     random_shapes(Family::Triangles, Ground::Grid(3), 20, 94, 200);
     random_shapes(Family::Squares, Ground::Grid(3), 20, 95, 200);
+}
+
+#[test]
+fn polygons_that_share_parts_of_edges_have_one_exterior() {
+    // One on a longer edge; two side by side on it; one that juts out; a row of three; one in a notch.
+    let a = "((0 0, 10 0, 10 10, 0 10, 0 0))";
+    for (others, n_parts) in [
+        (vec!["((2 10, 4 10, 3 13, 2 10))"], 2),
+        (vec!["((2 10, 4 10, 3 13, 2 10))", "((4 10, 8 10, 8 12, 4 10))"], 2),
+        (vec!["((10 5, 12 5, 12 15, 10 15, 10 5))"], 1),
+        (vec!["((10 -5, 12 -5, 12 15, 10 15, 10 -5))", "((12 0, 20 0, 12 9, 12 0))"], 1),
+    ] {
+        let wkt = format!("MULTIPOLYGON ({a}, {})", others.join(", "));
+        let domain = shapes::wkt(&wkt);
+        assert_eq!(faults(&domain), Vec::<String>::new(), "{wkt}");
+        let (_, axis) = axis_of(&wkt);
+        // The top edge of the square is cut into what is left of it.
+        let is_part = |s: &Site| s.a != s.b && (s.polygon, s.a.y, s.b.y) == (0, 10.0, 10.0);
+        let parts = axis.sites().iter().filter(is_part);
+        assert_eq!(parts.count(), n_parts, "{wkt}");
+    }
+}
+
+/// A square cut into cells by lines that jog, with some of the cells left out.
+fn jogged_cells(random: &mut Random, side: u64) -> shapes::Polygons {
+    let mut cells = Vec::new();
+    for row in 0..side {
+        let (low, high) = (10.0 * row as f64, 10.0 * (row + 1) as f64);
+        let mut left = 0.0;
+        while left < 10.0 * side as f64 {
+            let right = left + 3.0 + random.below(9) as f64;
+            if random.below(4) > 0 {
+                let ring = [(left, low), (right, low), (right, high), (left, high)];
+                cells.push(vec![ring.map(|(x, y)| Point::new(x, y)).to_vec()]);
+            }
+            left = right;
+        }
+    }
+    cells
+}
+
+#[test]
+fn walls_of_bricks_have_an_exterior_axis() {
+    let random = &mut Random(96);
+    let mut tried = 0;
+    for side in [2, 3, 4, 5].into_iter().cycle().take(200) {
+        let bricks = jogged_cells(random, side);
+        let Ok(domain) = Domain::from_polygons(&bricks, &domain::Options::default()) else {
+            continue;
+        };
+        tried += 1;
+        assert_eq!(faults(&domain), Vec::<String>::new(), "{}", shapes::to_wkt(&bricks));
+    }
+    assert!(tried > 150, "{tried}");
 }
 
 #[test]

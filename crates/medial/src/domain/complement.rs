@@ -4,6 +4,8 @@
 //! round, so that what was outside lies to their left. Where boundaries touch the walks are paired
 //! again, by the sectors of the outside. Edges, and the corners between them, keep their names.
 
+use std::cmp::Ordering;
+
 use super::apart::apart;
 use super::origins::{Origins, Source};
 use super::outlines::Draft;
@@ -25,6 +27,7 @@ pub struct Complement {
     /// For each edge its place among all edges along the inner boundary, and that of the one before
     /// which the corner at its start comes there; none for the walls.
     places: Vec<[u32; 2]>,
+    touches: bool,
 }
 
 impl Complement {
@@ -47,26 +50,33 @@ impl Complement {
     /// # Errors
     /// [`DomainError::Internal`] if the frame does not hold the domain.
     pub fn new(domain: &Domain, frame: &Rect) -> Result<Self, DomainError> {
-        let mut rings = reversed(domain, frame);
+        let Reversed { mut rings, mut inner } = Reversed::new(domain, frame, &[]);
         let n_walks = rings.rings.len();
-        let draft = Draft::with_room(rings.points.len(), n_walks);
         let options = Options::default();
+        let mut touches = false;
         let outside = match apart(&rings) {
             Some(nesting) if nesting.sides_agree(&rings) => {
+                let draft = Draft::with_room(rings.points.len(), n_walks);
                 let order = (0..n_walks as u32).collect();
                 Domain::of_rings(draft, &rings, &nesting, Some(order), Report::default())?
             }
             _ => {
+                touches = true;
+                let splits = splits(domain);
+                if !splits.is_empty() {
+                    Reversed { rings, inner } = Reversed::new(domain, frame, &splits);
+                }
                 rings.number();
+                let draft = Draft::with_room(rings.points.len(), n_walks);
                 Domain::of_touching_rings(draft, rings, 1, &options, Report::default())?
             }
         };
-        Ok(Self::named(outside, domain))
+        Ok(Self { touches, ..Self::named(outside, domain, &inner) })
     }
 
     /// The outside, its edges and corners named as in the domain.
-    fn named(mut outside: Domain, domain: &Domain) -> Self {
-        let pieces = Pieces::new(&outside, domain);
+    fn named(mut outside: Domain, domain: &Domain, inner: &[Vec<u32>]) -> Self {
+        let pieces = Pieces::new(&outside, domain, inner);
         let n = outside.edges.len();
         let nowhere = CornerOrigin { ring: NOWHERE, index: 0, part: 0 };
         let wall = Origin { polygon: NOWHERE, ring: NOWHERE, index: 0, part: 0, corner: nowhere };
@@ -77,13 +87,20 @@ impl Complement {
         }
         let sources = outside.walks.iter().map(|walk| Source::Pieces { first: walk.first });
         outside.origins = Origins { sources: sources.collect(), given: Vec::new(), records };
-        Self { domain: outside, places }
+        Self { domain: outside, places, touches: false }
     }
 
     /// The outside as a domain.
     #[must_use]
     pub fn domain(&self) -> &Domain {
         &self.domain
+    }
+
+    /// Whether boundaries touch. If not, each walk but that of the frame is one of the inner domain, the
+    /// other way round.
+    #[must_use]
+    pub fn touches(&self) -> bool {
+        self.touches
     }
 
     /// Whether an edge, or the corner where it starts, belongs to the frame.
@@ -125,13 +142,12 @@ struct Pieces<'a> {
 }
 
 impl<'a> Pieces<'a> {
-    fn new(outside: &Domain, domain: &'a Domain) -> Self {
+    fn new(outside: &Domain, domain: &'a Domain, inner: &[Vec<u32>]) -> Self {
         let mut pieces: Vec<(u32, u32)> = Vec::with_capacity(outside.edges.len());
         for edge in WALLS..outside.edges.len() as u32 {
             // Rings were numbered like walks, behind that of the frame.
             let Origin { ring, index, .. } = outside.origin(edge);
-            let walk = &domain.walks[ring as usize - 1];
-            pieces.push((walk.first + walk.len - 1 - index, edge));
+            pieces.push((inner[ring as usize - 1][index as usize], edge));
         }
         pieces.sort_unstable_by(|&(m, a), &(n, b)| {
             // The inner boundary runs through an edge from its end to its start.
@@ -213,36 +229,104 @@ impl<'a> Pieces<'a> {
     }
 }
 
-/// The frame and the walks of a domain the other way round, as rings of one polygon.
-fn reversed(domain: &Domain, frame: &Rect) -> Rings<'static> {
-    let (low, high) = (frame.min, frame.max);
-    let n = domain.edges.len() + WALLS as usize;
-    let (mut points, mut corners) = (Vec::with_capacity(n), Vec::with_capacity(n));
-    points.extend([low, Point::new(high.x, low.y), high, Point::new(low.x, high.y)]);
-    corners.extend([Corner::Convex; WALLS as usize]);
-    let ring = |index: u32, first: u32, len: u32, hole: bool| Ring {
-        polygon: 0,
-        index,
-        first,
-        len,
-        cleaned: NONE,
-        hole,
-        reversed: false,
+/// Where edges of two polygons share a part of their length, the places inside an edge where it starts
+/// or ends, by the edge.
+///
+/// What polygons share is not their outside; cut out it can be where both have corners.
+fn splits(domain: &Domain) -> Vec<(u32, Point)> {
+    let ends = |edge: u32| {
+        let (a, b) = (domain.edge(edge).start, domain.end(edge));
+        if a.lexicographic(b).is_lt() { (a, b) } else { (b, a) }
     };
-    let mut rings = vec![ring(0, 0, WALLS, false)];
-    for (number, walk) in (1..).zip(&domain.walks) {
-        rings.push(ring(number, points.len() as u32, walk.len, !walk.hole));
-        // The first corner stays the first.
-        let rest = walk.first + 1..walk.first + walk.len;
-        let backwards = std::iter::once(walk.first).chain(rest.rev());
-        for edge in backwards.map(|k| domain.edge(k)) {
-            points.push(edge.start);
-            corners.push(match edge.corner {
-                Corner::Convex => Corner::Reflex,
-                Corner::Reflex => Corner::Convex,
-                Corner::Straight => Corner::Straight,
-            });
+    let lines = domain.lines();
+    let mut order: Vec<u32> = (0..domain.edges.len() as u32).collect();
+    order.sort_unstable_by(|&a, &b| {
+        let line = |edge: u32| lines[edge as usize];
+        line(a).cmp(&line(b)).then_with(|| ends(a).0.lexicographic(ends(b).0))
+    });
+    let mut splits = Vec::new();
+    for line in order.chunk_by(|&a, &b| lines[a as usize] == lines[b as usize]) {
+        // No more than two lie on one another anywhere.
+        let mut last = line[0];
+        for &edge in &line[1..] {
+            let ((start, end), (last_start, last_end)) = (ends(edge), ends(last));
+            let order = end.lexicographic(last_end);
+            if start.lexicographic(last_end).is_lt() {
+                if start != last_start {
+                    splits.push((last, start));
+                }
+                match order {
+                    Ordering::Less => splits.push((last, end)),
+                    Ordering::Equal => {}
+                    Ordering::Greater => splits.push((edge, last_end)),
+                }
+            }
+            if order.is_gt() {
+                last = edge;
+            }
         }
     }
-    Rings::of_parts(rings, points, corners)
+    splits
+}
+
+/// The frame and the walks of a domain the other way round, as rings of one polygon.
+struct Reversed {
+    rings: Rings<'static>,
+    /// For each walk the edge of the domain that each edge of its ring is a part of.
+    inner: Vec<Vec<u32>>,
+}
+
+impl Reversed {
+    /// The rings, with more corners where edges go on straight, each given with its edge.
+    fn new(domain: &Domain, frame: &Rect, splits: &[(u32, Point)]) -> Self {
+        let mut splits = splits.to_vec();
+        splits.sort_unstable_by(|&(a, p), &(b, q)| {
+            let (start, end) = (domain.edge(a).start, domain.end(a));
+            let along = p.lexicographic(q);
+            // From the end of an edge to its start.
+            a.cmp(&b).then(if start.lexicographic(end).is_lt() { along.reverse() } else { along })
+        });
+        splits.dedup();
+        let (low, high) = (frame.min, frame.max);
+        let n = domain.edges.len() + splits.len() + WALLS as usize;
+        let (mut points, mut corners) = (Vec::with_capacity(n), Vec::with_capacity(n));
+        points.extend([low, Point::new(high.x, low.y), high, Point::new(low.x, high.y)]);
+        corners.extend([Corner::Convex; WALLS as usize]);
+        let ring = |index: u32, first: u32, len: u32, hole: bool| Ring {
+            polygon: 0,
+            index,
+            first,
+            len,
+            cleaned: NONE,
+            hole,
+            reversed: false,
+        };
+        let mut rings = vec![ring(0, 0, WALLS, false)];
+        let mut inner = Vec::with_capacity(domain.walks.len());
+        for (number, walk) in (1..).zip(&domain.walks) {
+            let first = points.len() as u32;
+            let mut edges = Vec::with_capacity(walk.len as usize);
+            // The first corner stays the first.
+            let rest = walk.first + 1..walk.first + walk.len;
+            let backwards = std::iter::once(walk.first).chain(rest.rev());
+            for edge in backwards.map(|k| domain.edge(k)) {
+                points.push(edge.start);
+                edges.push(edge.prev);
+                corners.push(match edge.corner {
+                    Corner::Convex => Corner::Reflex,
+                    Corner::Reflex => Corner::Convex,
+                    Corner::Straight => Corner::Straight,
+                });
+                let begin = splits.partition_point(|&(split, _)| split < edge.prev);
+                for &(_, at) in splits[begin..].iter().take_while(|split| split.0 == edge.prev) {
+                    points.push(at);
+                    edges.push(edge.prev);
+                    corners.push(Corner::Straight);
+                }
+            }
+            rings.push(ring(number, first, edges.len() as u32, !walk.hole));
+            inner.push(edges);
+        }
+        Self { rings: Rings::of_parts(rings, points, corners), inner }
+    }
 }

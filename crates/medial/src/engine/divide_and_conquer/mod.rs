@@ -149,13 +149,13 @@ pub(super) fn both_sides(
     outside: &Complement,
     options: &Options<'_>,
 ) -> Result<Option<[MedialAxis; 2]>, EngineError> {
+    if outside.touches() {
+        return Ok(None);
+    }
     let watch = Watch::new(options);
     let [lines, lines_outside] = [domain, outside.domain()].map(Line::all);
     let ground = Ground::new(domain, &lines)?;
     let ground_outside = Ground::new(outside.domain(), &lines_outside)?;
-    if ground.touches || ground_outside.touches {
-        return Ok(None);
-    }
     let rings = forest::of_all(ground, Asked::Both, options, &watch)?;
     let (exacts, exacts_outside) = (Exacts::new(), Exacts::new());
     let members = [ground.members(&exacts), ground_outside.members(&exacts_outside)];

@@ -72,11 +72,11 @@ pub(super) fn of_walks(domain: &Domain) -> Vec<u32> {
     order.into_iter().map(|(.., k)| k).collect()
 }
 
-/// The round of a walk, counted from the last one: each holds about half of all that are not in later
+/// The round of a number, counted from the last one: each holds about half of all that are not in later
 /// ones.
-fn round(walk: u32) -> u32 {
+pub(super) fn round(number: u32) -> u32 {
     // Every bit of the number tells in the bits that are counted.
-    let mixed = walk.wrapping_add(1).wrapping_mul(0x9e37_79b1);
+    let mixed = number.wrapping_add(1).wrapping_mul(0x9e37_79b1);
     (mixed ^ mixed >> 15).wrapping_mul(0x85eb_ca77).leading_zeros()
 }
 

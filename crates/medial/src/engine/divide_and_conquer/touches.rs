@@ -10,9 +10,12 @@
 //! 4. At most one sector at a place is reflex, so the place has one cell at most; it gets the number that
 //!    the corner of this sector has anywhere else.
 
+use std::cmp::Reverse;
+
 use super::diagram::{Diagram, NONE};
 use super::elements::{Member, Members};
 use super::merge::{Joint, Merge};
+use super::order;
 use crate::domain::{Corner, Domain, Site, Walk};
 use crate::engine::EngineError;
 use crate::engine::watch::Watch;
@@ -69,9 +72,14 @@ struct Touch {
     after: u32,
     /// The corner as the other rings have it.
     own: Member,
+    /// The number of the place where it hangs.
+    place: u32,
 }
 
 /// All rings that hang on others; at one place in boundary order.
+///
+/// Places come in rounds, so that the first ones lie everywhere along a ring: a ring that is added next
+/// to another one is not compared with all that lies beyond that.
 fn touches(domain: &Domain, walk: &Walk, rings: &[Vec<u32>]) -> Vec<Touch> {
     let mut last_of = vec![NONE; walk.len as usize];
     for ring in rings {
@@ -80,6 +88,7 @@ fn touches(domain: &Domain, walk: &Walk, rings: &[Vec<u32>]) -> Vec<Touch> {
         }
     }
     let mut touches = Vec::new();
+    let mut place = 0;
     for (k, ring) in rings.iter().enumerate() {
         // What else hangs where a ring is cut out hangs on the ring that stays.
         let is_cut_out = k + 1 < rings.len();
@@ -93,11 +102,13 @@ fn touches(domain: &Domain, walk: &Walk, rings: &[Vec<u32>]) -> Vec<Touch> {
                     break;
                 }
                 let last = last_of[(first - walk.first) as usize];
-                touches.push(Touch { first, last, before, after, own });
+                touches.push(Touch { first, last, before, after, own, place });
                 before = last;
             }
+            place += 1;
         }
     }
+    touches.sort_by_key(|touch: &Touch| Reverse(order::round(touch.place)));
     touches
 }
 
@@ -110,7 +121,7 @@ pub(super) fn merge(
     watch: &Watch<'_>,
 ) -> Result<(), EngineError> {
     let touches = touches(members.domain, walk, rings);
-    for &Touch { first, last, before, after, own } in &touches {
+    for &Touch { first, last, before, after, own, .. } in &touches {
         let corners = [own, Member::start(first)];
         let joints = [
             Joint::of_rings(&members, [before, first], true, corners),
