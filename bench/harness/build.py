@@ -51,6 +51,7 @@ def programs(rivals, files):
     folder = cargo(BENCH, *(word for name in packages for word in ("-p", name)))
     medial = folder / "medial-bench"
     commands = {"medial": [medial], "divide_and_conquer": [medial, "time", "divide_and_conquer"]}
+    commands |= {"both": [medial, "both", "path_tracing"], "both_other": [medial, "both", "divide_and_conquer"]}
     commands["layers"] = [folder / "layers"]
     for name in rivals:
         if name in CPP:

@@ -15,6 +15,9 @@ BASE = 10_000
 # The engine that is timed beside the default one.
 OTHER = "divide_and_conquer"
 
+# What each engine takes for both sides.
+BOTH = ["both", "both_other"]
+
 # Rivals with a table of their own: most of them take minutes where medial takes a second.
 SLOW = ["cgal", "boostvoronoi", "spade", "spade-cdt"]
 
@@ -32,10 +35,11 @@ def rows(commands, rivals, options, scratch):
     heads += ["medial ÷ delaunator"] if "delaunator" in rivals else []
     heads += ["÷ at 1e4", OTHER]
     heads += [f"boost ÷ {OTHER}"] if "boost" in rivals else []
+    heads += [f"both sides, {OTHER} ÷ path_tracing"]
     yield heads
     yield ["---"] + ["--:"] * (len(heads) - 1)
     bases = {}
-    for shape, size, results in compared(commands, [OTHER, *rivals], options, scratch):
+    for shape, size, results in compared(commands, [OTHER, *BOTH, *rivals], options, scratch):
         ours, other = results["medial"], results[OTHER]
         cells = [shape, f"{size:,}", "", "", str(ours), "", "", ""]
         far = ""
@@ -61,7 +65,9 @@ def rows(commands, rivals, options, scratch):
         engine = isinstance(other, Result) and short(other.second / other.edges / 1e3)
         cells += [far, engine or str(other)]
         cells += [ratio(results["boost"], other)] if "boost" in rivals else []
-        yield cells
+        first, second = (results[name] for name in BOTH)
+        both = isinstance(first, Result) and isinstance(second, Result)
+        yield cells + [f"{second.second / first.second:.2f}" if both else ""]
 
 
 def slow_rows(commands, rivals, options, scratch):

@@ -26,6 +26,7 @@ PROCESSOR = """Processor: {processor}.
 
 SHAPES = """- *medial*: `Domain::from_polygons`, which validates, and `path_tracing`; *medial* is the sum, and *first* that of the first round of a process, which also fetches all its memory from the system. `bytes` is the growth of the peak of resident memory over both, an edge. `÷ at 1e4` is time an edge against that at 1e4 edges.
 - *divide_and_conquer*: that engine alone; *boost ÷ divide_and_conquer* counts validation too, as *boost ÷ medial* does.
+- *both sides*: `both_sides`, the interior and the exterior within a frame, by either engine, without validation.
 - *boost*: Boost.Polygon: `construct_voronoi` of the edges, and the walk that drops what lies outside. It gives both sides of the boundary, medial the inside; in general position it finds as many paths, but for those inside the holes, which count for Boost too.
 - *delaunator*: no axis at all, but the Delaunay triangulation of the corners: what a fast geometric algorithm on as many points costs.
 
@@ -44,8 +45,7 @@ RIVALS = """The same shapes and sizes, medial measured again among these:
 
 STEPS = """What `divide_and_conquer` does, counted by `divide_and_conquer_counted`, an edge of the shape: *pieces* of merge curves that it followed, *arcs* around cells that it looked at to find where a piece ends, and *starts*, edges that it looked at to find where the curve around a ring starts; *steps* are their sum.
 Counts are the same on every machine.
-Where steps ÷ log₂ edges does not grow, the merges take n log n steps at worst: so do pieces and arcs of all shapes.
-The starts of `holes` grow faster, by a factor of three where the edges grow by ten: the disk at the far end of an arc around a ring, which is looked at first, may hold many of the rings that are there already.
+Where steps ÷ log₂ edges does not grow, the merges take n log n steps at worst.
 
 ![Steps an edge against edges, by shape](merge-steps.svg)
 

@@ -2,7 +2,8 @@
 //!
 //! `medial-bench draw SHAPE EDGES` prints a shape, as `text` describes; `medial-bench time [ENGINE]`
 //! reads shapes and prints one line, as `measure` describes, with the number of paths as what was
-//! found; `medial-bench axis SHAPE EDGES` computes the axis of a shape once, for counting
+//! found; `medial-bench both ENGINE` does so for the interior and the exterior together;
+//! `medial-bench axis SHAPE EDGES` computes the axis of a shape once, for counting
 //! instructions in `medial_bench_domain` and `medial_bench_engine`; `medial-bench work SHAPE EDGES`
 //! prints the numbers of edges and rings, and what the merges of `divide_and_conquer` did: pieces,
 //! arcs, starts.
@@ -11,7 +12,7 @@ use std::{env, hint};
 
 use medial::axis::{Engine, MedialAxis};
 use medial::domain::{Domain, DomainError, Options};
-use medial::engine::{self, EngineError, divide_and_conquer_counted, interior};
+use medial::engine::{self, EngineError, both_sides, divide_and_conquer_counted, interior};
 use medial::geom::Point;
 use medial_bench::measure::{Error, Work, report};
 use medial_bench::{shapes, text};
@@ -22,9 +23,10 @@ fn main() -> Result<(), Error> {
         ["draw", shape, edges] => draw(shape, edges.parse()?),
         ["time"] => time(Engine::PathTracing),
         ["time", engine] => time(engine.parse()?),
+        ["both", engine] => both(engine.parse()?),
         ["axis", shape, edges] => axis(shape, edges.parse()?),
         ["work", shape, edges] => work(shape, edges.parse()?),
-        _ => Err("medial-bench draw, axis or work SHAPE EDGES, or time [ENGINE]".into()),
+        _ => Err("medial-bench draw, axis or work SHAPE EDGES, time [ENGINE], or both ENGINE".into()),
     }
 }
 
@@ -47,6 +49,17 @@ fn time(engine: Engine) -> Result<(), Error> {
         first: |polygons: &text::Polygons| Ok(medial_bench_domain(polygons)?),
         second: |domain: &mut Domain| Ok(medial_bench_engine(engine, domain)?),
         count: |_: &Domain, axis: &MedialAxis| axis.paths().len(),
+    };
+    report(&text::read()?, text::edges, &work)
+}
+
+fn both(engine: Engine) -> Result<(), Error> {
+    let options = engine::Options::default();
+    let work = Work {
+        prepare: |polygons| polygons,
+        first: |polygons: &text::Polygons| Ok(medial_bench_domain(polygons)?),
+        second: |domain: &mut Domain| Ok(both_sides(domain, engine, None, &options)?),
+        count: |_: &Domain, axes: &[MedialAxis; 2]| axes.iter().map(|axis| axis.paths().len()).sum(),
     };
     report(&text::read()?, text::edges, &work)
 }

@@ -47,6 +47,7 @@ struct Counted {
     ends: usize,
     transitions: usize,
     junctions: usize,
+    tips: usize,
     clipped: usize,
     paths: usize,
     leaves: usize,
@@ -153,6 +154,9 @@ impl Judged {
                 "  axis: {} sites, {} ends, {} transitions, {} junctions, {} paths, {} cycles",
                 c.sites, c.ends, c.transitions, c.junctions, c.paths, c.cycles,
             );
+            if c.tips > 0 {
+                let _ = writeln!(out, "  tips where it was cut or pruned: {}", c.tips);
+            }
             if c.clipped > 0 {
                 let _ = writeln!(out, "  paths to infinity: {}", c.clipped);
             }
@@ -180,6 +184,7 @@ fn counted(counts: Counts) -> Counted {
         ends,
         transitions,
         junctions,
+        tips,
         clipped,
         paths,
         leaves,
@@ -198,6 +203,7 @@ fn counted(counts: Counts) -> Counted {
         ends,
         transitions,
         junctions,
+        tips,
         clipped,
         paths,
         leaves,

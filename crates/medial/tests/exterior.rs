@@ -332,6 +332,45 @@ fn a_cut_with_a_wrong_radius_is_found() {
 }
 
 #[test]
+fn a_cut_that_is_not_on_the_frame_of_the_others_is_found() {
+    // Three notches, so three cuts; one of them slides back along its path.
+    let (domain, axis) = axis_of("POLYGON ((0 0, 4 0, 4 3, 3 1, 2 3, 1 1, 0 3, 0 0))");
+    let mut parts = Parts::of(&axis);
+    let cuts = || axis.keypoints().iter().filter(|k| k.kind == KeypointKind::Clipped);
+    assert!(cuts().count() > 1);
+    let at = cuts().last().unwrap();
+    let number = parts.at(at.position.x, at.position.y);
+    let start = parts.paths.iter().find_map(|p| match (p.from, p.to) {
+        (from, to) if to as usize == number => Some(from),
+        (from, to) if from as usize == number => Some(to),
+        _ => None,
+    });
+    // On the bisector of two corners the squared radius is quadratic.
+    let start = axis.keypoints().at(start.unwrap()).position;
+    let middle = (start + at.position) * 0.5;
+    let governor = axis.sites().at(parts.keypoints[number].governors[0]).a;
+    parts.keypoints[number].position = middle;
+    parts.keypoints[number].radius = (middle - governor).norm();
+    let defects = check::defects(&domain, &parts.axis()).defects;
+    assert!(matches!(defects[..], [Defect::OffFrame { .. }]), "{defects:#?}");
+}
+
+#[test]
+fn what_is_left_of_an_axis_that_is_not_complete_is_named_by_its_paths() {
+    let (domain, axis) = axis_of(L);
+    let mut parts = Parts::of(&axis);
+    parts.complete = false;
+    assert_eq!(check::defects(&domain, &parts.axis()).defects, []);
+    // The notch is a corner with one path: its end, nothing else.
+    let end = parts.at(1.0, 1.0);
+    for kind in [KeypointKind::Junction, KeypointKind::Transition, KeypointKind::Tip] {
+        parts.keypoints[end].kind = kind;
+        let defects = check::defects(&domain, &parts.axis()).defects;
+        assert!(!defects.is_empty(), "{kind:?}");
+    }
+}
+
+#[test]
 fn sites_the_other_way_round_are_found() {
     let (domain, axis) = axis_of(L);
     let mut parts = Parts::of(&axis);

@@ -464,7 +464,7 @@ fn half(domain: &Domain) -> Parts {
     parts.keypoints[b] = Keypoint {
         position: Point::new(2.5, 1.0),
         radius: 1.0,
-        kind: KeypointKind::Transition,
+        kind: KeypointKind::Tip,
         governors: vec![plateau.left.min(plateau.right), plateau.left.max(plateau.right)],
     };
     let (a, b) = (a as u32, b as u32);

@@ -138,6 +138,7 @@ pub(super) fn dots(canvas: &mut Canvas, kind: KeypointKind, data: &str, unit: f6
     let circles: &[(&str, f64)] = match kind {
         KeypointKind::End => &[("#78909c", 2.0)],
         KeypointKind::Transition => &[(INK, 2.6), ("#ffffff", 1.5)],
+        KeypointKind::Tip => &[("#78909c", 3.4)],
         KeypointKind::Clipped => &[("#78909c", 2.6), ("#ffffff", 1.5)],
         _ => &[(INK, 3.4)],
     };

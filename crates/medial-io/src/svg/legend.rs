@@ -50,13 +50,13 @@ fn counts(canvas: &mut Canvas, at: Point, scenes: &[Scene], keypoints: bool) {
     let n_paths: usize = scenes.iter().map(|s| s.axis.paths().len()).sum();
     let mut x = at.x;
     if keypoints {
-        use KeypointKind::{Clipped, End, Junction, Transition};
-        for kind in [Junction, Transition, End, Clipped] {
+        use KeypointKind::{Clipped, End, Junction, Tip, Transition};
+        for kind in [Junction, Transition, End, Tip, Clipped] {
             let all = scenes.iter().flat_map(|s| s.axis.keypoints());
             let n = all.filter(|k| k.kind == kind).count();
-            // Only outside are there any.
+            // Only outside, or in axes that are not complete, are there any.
             let label = match (kind, n) {
-                (Clipped, 0) => continue,
+                (Clipped | Tip, 0) => continue,
                 (Clipped, n) => format!("{n} clipped"),
                 _ => plural(n, kind.name()),
             };

@@ -73,6 +73,8 @@ pub enum KeypointKind {
     Transition,
     /// Degree three or more.
     Junction,
+    /// Degree one or none: where an axis that is not complete was cut or pruned; any two governors.
+    Tip,
     /// Degree one: where a path of an exterior axis leaves the frame.
     Clipped,
 }

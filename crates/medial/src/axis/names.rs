@@ -61,7 +61,7 @@ names!(CurveKind, "curve", Line => "line", Parabola => "parabola");
 names!(SiteKind, "kind of site", Edge => "edge", Vertex => "vertex");
 names!(
     KeypointKind, "kind of keypoint",
-    End => "end", Transition => "transition", Junction => "junction", Clipped => "clipped",
+    End => "end", Transition => "transition", Junction => "junction", Tip => "tip", Clipped => "clipped",
 );
 
 #[cfg(test)]

@@ -274,6 +274,17 @@ pub enum Defect {
         /// Where it is.
         at: Point,
     },
+    /// A path of an exterior axis is cut elsewhere than the others, or a keypoint lies beyond the frame.
+    OffFrame {
+        /// The keypoint.
+        keypoint: u32,
+        /// How far the box of the polygons must grow to reach it, in units of the input.
+        margin: f64,
+        /// The same for the frame, as the cut that is farthest away has it.
+        frame: f64,
+        /// Where it is.
+        at: Point,
+    },
     /// The outside of the domain could not be made a domain of its own: a fault of ours.
     NoOutside,
     /// The footpoints of the paths do not tile a boundary element from its start to its end.
@@ -388,6 +399,12 @@ impl fmt::Display for Defect {
             Self::StrayCut { keypoint, .. } => {
                 write!(f, "keypoint {keypoint}: a path that does not go to infinity is cut here")
             }
+            Self::OffFrame { keypoint, margin, frame, .. } => {
+                write!(
+                    f,
+                    "keypoint {keypoint} is {margin} away from the box of the polygons, the frame {frame}"
+                )
+            }
             Self::NoOutside => return write!(f, "the outside of the domain cannot be judged"),
             Self::Untiled { site, starts, ends, .. } => {
                 write!(f, "{site}: the cells along it start {starts} times and end {ends} times")
@@ -433,6 +450,7 @@ impl Defect {
             | Self::LostWalk { at, .. }
             | Self::LostGap { at, .. }
             | Self::StrayCut { at, .. }
+            | Self::OffFrame { at, .. }
             | Self::Untiled { at, .. } => Some(at),
             Self::Identity(_) | Self::NoOutside => None,
         }

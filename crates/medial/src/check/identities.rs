@@ -35,6 +35,7 @@ pub(super) fn counts(context: &Context) -> Counts {
         ends: keypoints(KeypointKind::End),
         transitions: keypoints(KeypointKind::Transition),
         junctions: keypoints(KeypointKind::Junction),
+        tips: keypoints(KeypointKind::Tip),
         clipped: keypoints(KeypointKind::Clipped),
         paths,
         leaves: degrees.iter().filter(|&&d| d == 1).count(),

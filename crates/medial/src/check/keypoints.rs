@@ -64,7 +64,7 @@ pub(super) fn check(context: &Context, defects: &mut Vec<Defect>) -> Keypoints {
         }
         let runs = one.runs(&sites);
         if runs.len() < 2 || sites.len() < 3 {
-            let is_cut = one.is_clipped() || !context.axis.complete;
+            let is_cut = one.is_clipped() || one.is_tip();
             if is_cut && one.degree < 2 && runs.len() == 2 {
                 found.readable[k] = true;
                 one.leave(&sites, &runs, &mut found);
@@ -115,16 +115,21 @@ impl One<'_, '_> {
         self.keypoint.kind == KeypointKind::Clipped && self.context.axis.side == Side::Exterior
     }
 
+    /// Whether a path was cut or pruned away here.
+    fn is_tip(&self) -> bool {
+        self.keypoint.kind == KeypointKind::Tip && !self.context.axis.complete
+    }
+
     fn check_kind(&mut self) {
         let kind = match self.degree {
             1 if self.is_clipped() => KeypointKind::Clipped,
-            // Pruning and cutting leave tips and lone keypoints.
-            0 | 1 if !self.context.axis.complete => self.keypoint.kind,
+            // Pruning and cutting leave tips, alone or at a path.
+            0 | 1 if self.is_tip() => KeypointKind::Tip,
             1 => KeypointKind::End,
             2 => KeypointKind::Transition,
             _ => KeypointKind::Junction,
         };
-        if self.keypoint.kind != kind || self.degree == 0 && self.context.axis.complete {
+        if self.keypoint.kind != kind || self.degree == 0 && !self.is_tip() {
             self.defects.push(Defect::Kind {
                 keypoint: self.number,
                 kind: self.keypoint.kind,

@@ -43,6 +43,7 @@ mod difference;
 mod direction;
 mod disks;
 mod enclosure;
+mod frame;
 mod horizon;
 mod identities;
 mod keypoints;
@@ -109,6 +110,7 @@ fn judge(domain: &Domain, outside: Option<&Complement>, axis: &MedialAxis) -> Ve
             check_idle(&context, &mut defects);
             let found = keypoints::check(&context, &mut defects);
             paths::check(&context, &found, &mut defects);
+            frame::check(&context, &mut defects);
             if axis.complete {
                 boundary::check(&context, &found, &mut defects);
                 horizon::check(&context, &mut defects);

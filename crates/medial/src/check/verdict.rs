@@ -40,6 +40,8 @@ pub struct Counts {
     pub transitions: usize,
     /// Keypoints of kind `junction`.
     pub junctions: usize,
+    /// Keypoints of kind `tip`.
+    pub tips: usize,
     /// Keypoints of kind `clipped`.
     pub clipped: usize,
     /// Paths.
