@@ -70,17 +70,20 @@ impl Judged {
     /// side.
     pub fn all(feature: &Feature, domain: &Domain, documents: &[Document]) -> Vec<Self> {
         let judged = || Self::empty(feature.index, feature.id.clone());
-        match documents {
-            [Ok(document)] => vec![judged().verdict(domain, document)],
-            [Err(why)] => vec![judged().fault(why)],
-            [] => vec![judged().fault("the document has no axis of this feature")],
-            [Ok(first), Ok(second)] if first.axis.side != second.axis.side => {
-                [first, second].map(|document| judged().verdict(domain, document)).into()
-            }
-            [_, _, ..] => {
-                vec![judged().fault("the document has several axes of one side of this feature")]
-            }
+        if documents.is_empty() {
+            return vec![judged().fault("the document has no axis of this feature")];
         }
+        let axes = || documents.iter().flatten().map(|document| document.axis.side);
+        if Side::ALL.iter().any(|&side| axes().filter(|&s| s == side).count() > 1) {
+            return vec![
+                judged().fault("the document has several axes of one side of this feature"),
+            ];
+        }
+        let verdict = |document: &Document| match document {
+            Ok(document) => judged().verdict(domain, document),
+            Err(why) => judged().fault(why),
+        };
+        documents.iter().map(verdict).collect()
     }
 
     /// An axis of a feature that is no valid domain, or of none.

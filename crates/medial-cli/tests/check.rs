@@ -79,6 +79,19 @@ fn a_repeated_axis_is_a_defect() {
 }
 
 #[test]
+fn an_axis_beside_one_that_cannot_be_read_is_judged() {
+    let shape = path("shapes/l_with_unit_arms.wkt");
+    let both = medial(&["axis", &shape, "--side", "both", "--to", "json"]);
+    let (inside, outside) = both.text().split_once('\n').unwrap();
+    let bad = outside.replacen("\"radius\":", "\"radium\":", 1);
+    let run = medial_with(&["check", &shape, "-"], &format!("{inside}\n{bad}"));
+    assert_eq!(run.status, Some(4));
+    assert!(run.text().starts_with("feature 0: no defect\n"), "{}", run.text());
+    assert!(run.text().contains("radius"), "{}", run.text());
+    assert!(!run.text().contains("several axes"), "{}", run.text());
+}
+
+#[test]
 fn what_axis_writes_check_accepts() {
     for name in ["river.geojson", "mixed.geojson"] {
         let axes = medial(&["axis", &path(name), "--to", "json", "-q"]);

@@ -87,6 +87,15 @@ fn engines_can_be_chosen() {
 }
 
 #[test]
+fn an_engine_that_is_named_twice_runs_once() {
+    let names = "divide_and_conquer,path_tracing,divide-and-conquer";
+    let run = medial_with(&["compare", "-", "--engine", names], RECTANGLE);
+    let rows = rows(run.text());
+    let engines: Vec<&Value> = rows.iter().map(|row| &row["engine"]).collect();
+    assert_eq!(engines, ["divide_and_conquer", "path_tracing"]);
+}
+
+#[test]
 fn bad_features_are_left_out_and_the_others_compared() {
     let run = medial(&["compare", &path("mixed.geojson"), "-q"]);
     assert_eq!(run.status, Some(3));

@@ -213,6 +213,66 @@ impl Curve {
         (chordal + turning).abs()
     }
 
+    /// The parameter of the point so far along the curve from its start, in units of the input.
+    ///
+    /// ```
+    /// use medial::axis::{Curve, Site};
+    /// use medial::geom::Point;
+    /// let edge = Site::edge(Point::new(-9.0, 0.0), Point::new(9.0, 0.0));
+    /// let corner = Site::vertex(Point::new(0.0, 2.0));
+    /// let ends = [-2.0, 2.0].map(|x| (Point::new(x, 2.0), 2.0));
+    /// let curve = Curve::new(&corner, &edge, ends[0], ends[1]);
+    /// assert!((curve.parameter_at_length(0.5 * curve.length()) - 0.5).abs() < 1e-15);
+    /// ```
+    #[must_use]
+    pub fn parameter_at_length(&self, length: f64) -> f64 {
+        let whole = self.length();
+        if length <= 0.0 || whole == 0.0 {
+            return 0.0;
+        }
+        if length >= whole {
+            return 1.0;
+        }
+        match self.form {
+            Form::Linear | Form::Corners { .. } => length / whole,
+            Form::Parabola { .. } => bisected(|u| self.piece(0.0, u).length() - length),
+        }
+    }
+
+    /// How fast the radius grows along the curve, as a share of the length: 1 is as fast as it can.
+    ///
+    /// It is the cosine of half the angle of the disk's arc that lies behind, between both footpoints.
+    #[must_use]
+    pub fn growth_at(&self, u: f64) -> f64 {
+        let u = u.clamp(0.0, 1.0);
+        let slope = |[a, b]: [f64; 2], scale: f64| {
+            let x = a * (1.0 - u) + b * u;
+            if a <= b { x / x.hypot(scale) } else { -x / x.hypot(scale) }
+        };
+        match self.form {
+            Form::Linear => {
+                let length = (self.to - self.from).norm();
+                if length == 0.0 { 0.0 } else { (self.radius_to - self.radius_from) / length }
+            }
+            Form::Corners { half, s } => slope(s, half),
+            Form::Parabola { d, x, .. } => slope(x, d),
+        }
+    }
+
+    /// The same curve from its end to its start.
+    #[must_use]
+    pub fn reversed(&self) -> Self {
+        let form = match self.form {
+            Form::Linear => Form::Linear,
+            Form::Corners { half, s: [a, b] } => Form::Corners { half, s: [b, a] },
+            Form::Parabola { d, x: [a, b], focus, tangent } => {
+                Form::Parabola { d, x: [b, a], focus, tangent }
+            }
+        };
+        let Self { from, to, radius_from, radius_to, .. } = *self;
+        Self { from: to, to: from, radius_from: radius_to, radius_to: radius_from, form }
+    }
+
     /// The distance of `p` from the nearest point of the curve, rounded.
     ///
     /// ```
@@ -368,6 +428,22 @@ fn parabola(focus: Point, edge: &Site, from: (Point, f64), to: (Point, f64)) -> 
         if radius > d { square.sqrt().copysign(x) } else { x }
     };
     Form::Parabola { d, x: [position(from), position(to)], focus, tangent }
+}
+
+/// Where a function that is negative at 0 and not at 1 turns.
+pub(crate) fn bisected(sign: impl Fn(f64) -> f64) -> f64 {
+    let (mut low, mut high) = (0.0, 1.0);
+    loop {
+        let middle = 0.5 * (low + high);
+        if middle <= low || middle >= high {
+            return high;
+        }
+        if sign(middle) < 0.0 {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
 }
 
 /// The real roots of `x³ + px + q`, rounded; one that stands for several comes more than once.

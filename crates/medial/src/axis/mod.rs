@@ -10,6 +10,7 @@ mod sites;
 mod views;
 
 pub use curve::Curve;
+pub(crate) use curve::bisected;
 pub use draw::CurveKind;
 pub(crate) use keypoints::KeypointTable;
 pub use keypoints::{Keypoints, KeypointsIter};
@@ -17,6 +18,7 @@ pub use medial_axis::{
     Accuracy, Engine, Keypoint, KeypointKind, MedialAxis, Path, Side, Site, SiteKind,
 };
 pub use names::UnknownName;
+pub(crate) use names::names;
 pub(crate) use paths::PathTable;
 pub use paths::{Paths, PathsIter};
 pub(crate) use sites::SiteTable;

@@ -1,6 +1,4 @@
 use super::{CurveKind, Engine, KeypointKind, Side, SiteKind};
-use std::fmt;
-use std::str::FromStr;
 
 /// A word that names none of the values it should.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -30,19 +28,19 @@ macro_rules! names {
             }
         }
 
-        impl fmt::Display for $type {
-            fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        impl std::fmt::Display for $type {
+            fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
                 f.pad(self.name())
             }
         }
 
-        impl FromStr for $type {
-            type Err = UnknownName;
+        impl std::str::FromStr for $type {
+            type Err = $crate::axis::UnknownName;
 
             /// Reads the name; hyphens may stand for underscores.
-            fn from_str(word: &str) -> Result<Self, UnknownName> {
+            fn from_str(word: &str) -> Result<Self, Self::Err> {
                 let found = word.replace('-', "_");
-                Self::ALL.iter().copied().find(|v| v.name() == found).ok_or_else(|| UnknownName {
+                Self::ALL.iter().copied().find(|v| v.name() == found).ok_or_else(|| Self::Err {
                     thing: $thing,
                     word: word.to_owned(),
                     known: Self::ALL.iter().map(|v| v.name()).collect::<Vec<_>>().join(", "),
@@ -51,6 +49,7 @@ macro_rules! names {
         }
     };
 }
+pub(crate) use names;
 
 names!(
     Engine, "engine",

@@ -273,7 +273,7 @@ fn three_sites(sites: &[Site], runs: &[Run]) -> [Site; 3] {
 fn check_repeated(context: &Context, defects: &mut Vec<Defect>) {
     let keypoints = context.axis.keypoints();
     let mut order: Vec<u32> = (0..keypoints.len() as u32).collect();
-    order.retain(|&k| keypoints.at(k).kind != KeypointKind::Clipped);
+    order.retain(|&k| !matches!(keypoints.at(k).kind, KeypointKind::Clipped | KeypointKind::Tip));
     order.sort_by_key(|&k| context.axis.governors(k));
     for pair in order.windows(2) {
         let (first, second) = (pair[0], pair[1]);

@@ -1,7 +1,15 @@
 //! What is made of an axis.
 
+mod fire;
+mod ground;
+mod hierarchy;
+mod measure;
+mod rest;
 mod voronoi;
 
+pub use hierarchy::{Hierarchy, HierarchyError, Significance, Span};
+pub use measure::Measure;
+pub use rest::Pruned;
 pub use voronoi::{
     Cell, Contact, EdgeKind, Located, PointKind, Region, Voronoi, VoronoiEdge, VoronoiError,
     VoronoiPoint,

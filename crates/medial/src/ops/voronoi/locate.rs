@@ -23,11 +23,12 @@ use super::Voronoi;
 use super::chain::Over;
 use super::descent::{Found, Hierarchy};
 use super::nearest::{between_normals, compare, footpoint, nearest_part, side};
-use super::sheet::{Ground, Sheet};
+use super::sheet::Sheet;
 use crate::axis::{self, Side};
 use crate::domain::{Corner, Domain, EdgeTree, Site};
 use crate::geom::predicates::{Element, ExactDisk, compare_distances};
 use crate::geom::{Point, Rect};
+use crate::ops::ground::Ground;
 
 /// Where a point lies with respect to the polygons; [`name`](Self::name) gives its name in files.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

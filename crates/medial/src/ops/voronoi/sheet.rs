@@ -1,92 +1,16 @@
-//! One side of the boundary: a domain with that side to the left of its edges, and the axis there.
+//! One side of the boundary with the axis there.
 
 use std::collections::HashMap;
 
 use smallvec::SmallVec;
 
 use super::VoronoiError;
-use crate::axis::{self, MedialAxis, Side};
+use crate::axis::{self, MedialAxis};
 use crate::check::Name;
-use crate::domain::{Complement, Corner, Domain, Site, Walk};
+use crate::domain::{Corner, Domain, Site};
 use crate::geom::predicates::{Element, ExactDisk};
 use crate::geom::{Point, Rect};
-
-/// The boundary as one side sees it: with itself to the left of the edges.
-#[derive(Debug)]
-pub(super) enum Ground<'a> {
-    Inside(&'a Domain),
-    Outside(Box<Complement>),
-}
-
-impl<'a> Ground<'a> {
-    /// The ground of a side, within a frame outside.
-    pub fn new(domain: &'a Domain, side: Side, frame: &Rect) -> Result<Self, VoronoiError> {
-        match side {
-            Side::Interior => Ok(Self::Inside(domain)),
-            Side::Exterior => Complement::new(domain, frame)
-                .map(|outside| Self::Outside(Box::new(outside)))
-                .map_err(|_| VoronoiError::Frame),
-        }
-    }
-
-    /// The domain of that side; outside within walls.
-    pub fn domain(&self) -> &Domain {
-        match self {
-            Self::Inside(domain) => domain,
-            Self::Outside(outside) => outside.domain(),
-        }
-    }
-
-    pub fn side(&self) -> Side {
-        match self {
-            Self::Inside(_) => Side::Interior,
-            Self::Outside(_) => Side::Exterior,
-        }
-    }
-
-    /// The boundary walks, without the walls.
-    pub fn walks(&self) -> &[Walk] {
-        match self {
-            Self::Inside(domain) => domain.walks(),
-            Self::Outside(outside) => &outside.domain().walks()[1..],
-        }
-    }
-
-    /// All edges and corners but those of the walls, along the boundary of the polygons.
-    fn elements(&self) -> Vec<Site> {
-        let all = (0..2 * self.domain().edges().len() as u32).map(Site);
-        let mut all: Vec<Site> = all.filter(|&site| self.place(site).is_some()).collect();
-        all.sort_by_key(|&site| self.place(site));
-        all
-    }
-
-    /// The place of an element along the boundary of the polygons; `None` for the walls.
-    pub fn place(&self, site: Site) -> Option<Site> {
-        match self {
-            Self::Inside(_) => Some(site),
-            Self::Outside(outside) => outside.inner_site(site),
-        }
-    }
-
-    /// Whether an element has a cell on this side.
-    pub fn has_cell(&self, site: Site) -> bool {
-        site.is_edge() || self.domain().edge(site.index()).corner == Corner::Reflex
-    }
-
-    /// An element as an axis lists it.
-    pub fn named(&self, site: Site) -> axis::Site {
-        let domain = self.domain();
-        let Name { kind, polygon, ring, index, part } = Name::of(domain, site);
-        let start = domain.edge(site.index()).start;
-        let end = if site.is_edge() { domain.end(site.index()) } else { start };
-        let (a, b) = match self {
-            Self::Inside(_) => (start, end),
-            // The interior of the polygons is on the left, whatever the side.
-            Self::Outside(_) => (end, start),
-        };
-        axis::Site { kind, polygon, ring, index, part, a, b }
-    }
-}
+use crate::ops::ground::Ground;
 
 /// A side with its axis.
 #[derive(Debug)]
@@ -113,20 +37,11 @@ impl<'a> Sheet<'a> {
         axis: &'a MedialAxis,
         frame: &Rect,
     ) -> Result<Self, VoronoiError> {
-        let ground = Ground::new(domain, axis.side, frame)?;
-        let all = ground.elements();
-        let mut names: Vec<(Name, Site)> =
-            all.iter().map(|&site| (Name::of(ground.domain(), site), site)).collect();
-        names.sort_unstable();
-        let governor = |site: axis::Site| {
-            let axis::Site { kind, polygon, ring, index, part, .. } = site;
-            let name = Name { kind, polygon, ring, index, part };
-            let found = names.binary_search_by(|(known, _)| known.cmp(&name));
-            let element = found.ok().map(|k| names[k].1).filter(|&e| ground.named(e) == site);
-            element.ok_or(VoronoiError::UnknownSite { side: axis.side, name })
-        };
-        let governors = axis.sites().iter().map(governor).collect::<Result<_, _>>()?;
-        let elements = all.into_iter().filter(|&site| ground.has_cell(site)).collect();
+        let ground = Ground::new(domain, axis.side, frame).ok_or(VoronoiError::Frame)?;
+        let unknown = |name| VoronoiError::UnknownSite { side: axis.side, name };
+        let governors = ground.governors(axis).map_err(unknown)?;
+        let elements =
+            ground.elements().into_iter().filter(|&site| ground.has_cell(site)).collect();
         Ok(Self { ground, axis, governors, elements, numbers: Vec::new(), of_sites: Vec::new() })
     }
 

@@ -1,0 +1,102 @@
+//! One side of the boundary: a domain with that side to the left of its edges.
+
+use crate::axis::{self, MedialAxis, Side};
+use crate::check::Name;
+use crate::domain::{Complement, Corner, Domain, Site, Walk};
+use crate::geom::Rect;
+
+/// The boundary as one side sees it: with itself to the left of the edges.
+#[derive(Debug)]
+pub(super) enum Ground<'a> {
+    Inside(&'a Domain),
+    Outside(Box<Complement>),
+}
+
+impl<'a> Ground<'a> {
+    /// The ground of a side, within a frame outside.
+    ///
+    /// `None` if the frame does not hold the domain.
+    pub fn new(domain: &'a Domain, side: Side, frame: &Rect) -> Option<Self> {
+        match side {
+            Side::Interior => Some(Self::Inside(domain)),
+            Side::Exterior => {
+                Complement::new(domain, frame).ok().map(|outside| Self::Outside(Box::new(outside)))
+            }
+        }
+    }
+
+    /// The domain of that side; outside within walls.
+    pub fn domain(&self) -> &Domain {
+        match self {
+            Self::Inside(domain) => domain,
+            Self::Outside(outside) => outside.domain(),
+        }
+    }
+
+    pub fn side(&self) -> Side {
+        match self {
+            Self::Inside(_) => Side::Interior,
+            Self::Outside(_) => Side::Exterior,
+        }
+    }
+
+    /// The boundary walks, without the walls.
+    pub fn walks(&self) -> &[Walk] {
+        match self {
+            Self::Inside(domain) => domain.walks(),
+            Self::Outside(outside) => &outside.domain().walks()[1..],
+        }
+    }
+
+    /// All edges and corners but those of the walls, along the boundary of the polygons.
+    pub fn elements(&self) -> Vec<Site> {
+        let all = (0..2 * self.domain().edges().len() as u32).map(Site);
+        let mut all: Vec<Site> = all.filter(|&site| self.place(site).is_some()).collect();
+        all.sort_by_key(|&site| self.place(site));
+        all
+    }
+
+    /// The element behind each site of an axis, found by its name and its coordinates.
+    ///
+    /// # Errors
+    /// The name of a site that the domain does not have.
+    pub fn governors(&self, axis: &MedialAxis) -> Result<Vec<Site>, Name> {
+        let named = |site| (Name::of(self.domain(), site), site);
+        let mut names: Vec<(Name, Site)> = self.elements().into_iter().map(named).collect();
+        names.sort_unstable();
+        let governor = |site: axis::Site| {
+            let axis::Site { kind, polygon, ring, index, part, .. } = site;
+            let name = Name { kind, polygon, ring, index, part };
+            let found = names.binary_search_by(|(known, _)| known.cmp(&name));
+            found.ok().map(|k| names[k].1).filter(|&e| self.named(e) == site).ok_or(name)
+        };
+        axis.sites().iter().map(governor).collect()
+    }
+
+    /// The place of an element along the boundary of the polygons; `None` for the walls.
+    pub fn place(&self, site: Site) -> Option<Site> {
+        match self {
+            Self::Inside(_) => Some(site),
+            Self::Outside(outside) => outside.inner_site(site),
+        }
+    }
+
+    /// Whether an element has a cell on this side.
+    pub fn has_cell(&self, site: Site) -> bool {
+        site.is_edge() || self.domain().edge(site.index()).corner == Corner::Reflex
+    }
+
+    /// An element as an axis lists it.
+    pub fn named(&self, site: Site) -> axis::Site {
+        let domain = self.domain();
+        let Name { kind, polygon, ring, index, part } = Name::of(domain, site);
+        let start = domain.edge(site.index()).start;
+        let end = if site.is_edge() { domain.end(site.index()) } else { start };
+        let (a, b) = match self {
+            Self::Inside(_) => (start, end),
+            // The interior of the polygons is on the left, whatever the side.
+            Self::Outside(_) => (end, start),
+        };
+        axis::Site { kind, polygon, ring, index, part, a, b }
+    }
+}

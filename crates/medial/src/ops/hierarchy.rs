@@ -1,0 +1,382 @@
+//! The hierarchic skeleton [OK95]: how significant each point of an axis is, and what is left of it
+//! above any threshold.
+//!
+//! # Contract
+//! Values belong to a complete exact axis of either side, and grow along each path in the direction in
+//! which it burns. Points whose value lies below a threshold are removed, from the leaves inwards: the
+//! running maximum counts [SB98], so components and cycles stay, and of a component that is removed the
+//! root stays as a single tip. Cuts lie at the parameter where the threshold is reached, rounded.
+//! Everything takes O(n log n) for n keypoints, a search for far corners aside, which depends on the
+//! shape.
+//!
+//! # Method
+//! 1. The axis burns from its leaves (`fire.rs`), which gives each path a direction to the root of its
+//!    tree.
+//! 2. Measures have closed forms along a path: see [`Limb::value`]. Lengths along the boundary come from
+//!    prefix sums.
+//! 3. Values at keypoints are the largest of what comes from the leaves.
+//!
+//! # Departures
+//! The root of a tree is where it burns last; the papers leave it to be found otherwise.
+
+use std::ops::Range;
+
+use super::fire::{Fire, Way};
+use super::ground::Ground;
+use super::measure::Measure;
+use super::rest::{Pruned, Rest};
+use crate::axis::{Accuracy, Curve, MedialAxis, Path, Side, bisected};
+use crate::check::Name;
+use crate::domain::{Domain, Site};
+use crate::engine::exterior_frame;
+use crate::geom::{BoundsTree, Point, Rect, Visitor};
+
+/// Why nothing can be said of the significance of an axis.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum HierarchyError {
+    /// Values need every path, exactly.
+    #[error("the axis is pruned or sampled; significance needs a complete exact axis")]
+    Incomplete,
+    /// The axis is of another domain.
+    #[error("the axis names {name}, which the domain does not have")]
+    UnknownSite {
+        /// What it names.
+        name: Name,
+    },
+    /// The outside of the domain could not be made a domain of its own: a fault of ours.
+    #[error("the outside of the domain cannot be made out")]
+    NoOutside,
+}
+
+/// A complete exact axis with the order in which it burns.
+#[derive(Debug)]
+pub struct Hierarchy<'a> {
+    ground: Ground<'a>,
+    axis: &'a MedialAxis,
+    governors: Vec<Site>,
+    fire: Fire,
+    /// For each edge the length of the boundary from the start of its walk to the edge.
+    before: Vec<f64>,
+    /// The corners.
+    tree: BoundsTree,
+}
+
+/// Values of one measure.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Significance {
+    /// What they measure.
+    pub measure: Measure,
+    /// One for each path.
+    pub paths: Vec<Span>,
+}
+
+/// The values of a measure along a path: at each point the largest from the leaves up to there. Infinite
+/// where nothing burns.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Span {
+    /// Where the path starts.
+    pub start: f64,
+    /// Where it ends.
+    pub end: f64,
+    /// The largest: at one of the ends, or between them at the root of a tree.
+    pub most: f64,
+}
+
+/// A path, or the part of one up to the root, seen from the leaves.
+struct Limb<'h> {
+    hierarchy: &'h Hierarchy<'h>,
+    curve: Curve,
+    left: Site,
+    right: Site,
+    /// When its start burns, and the longest way to a leaf there.
+    time: f64,
+    reach: f64,
+}
+
+/// A path, or a part of one, that burns in one direction.
+struct Part {
+    path: u32,
+    /// Whether from the start of the path.
+    forwards: bool,
+    /// The keypoint ahead.
+    to: u32,
+    /// The parameter up to which it burns in this direction.
+    end: f64,
+    /// That of the root as the path has it, if it lies there.
+    root: Option<f64>,
+}
+
+impl<'a> Hierarchy<'a> {
+    /// Burns an axis of a domain.
+    ///
+    /// ```
+    /// use medial::domain::{Domain, Options};
+    /// use medial::engine::path_tracing;
+    /// use medial::geom::Point;
+    /// use medial::ops::{Hierarchy, Measure};
+    ///
+    /// let ring = [(0., 0.), (6., 0.), (6., 2.), (0., 2.)].map(|(x, y)| Point::new(x, y));
+    /// let domain = Domain::from_polygons(&[vec![ring.to_vec()]], &Options::default())?;
+    /// let axis = path_tracing(&domain)?;
+    /// let hierarchy = Hierarchy::new(&domain, &axis)?;
+    /// // Up to the centre each half loses two corners, 1 by 1 from the disks in the ends.
+    /// let pruned = hierarchy.pruned(Measure::Excess, 0.5);
+    /// assert_eq!(pruned.axis.paths().len(), 1);
+    /// assert!((pruned.error - (2_f64.sqrt() - 1.0)).abs() < 1e-15);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// If the axis is not complete and exact, or not of this domain.
+    pub fn new(domain: &'a Domain, axis: &'a MedialAxis) -> Result<Self, HierarchyError> {
+        if !axis.complete || axis.accuracy != Accuracy::Exact {
+            return Err(HierarchyError::Incomplete);
+        }
+        let frame = match axis.side {
+            Side::Interior => Rect::EMPTY,
+            Side::Exterior => {
+                exterior_frame(domain, None).map_err(|_| HierarchyError::NoOutside)?
+            }
+        };
+        let ground = Ground::new(domain, axis.side, &frame).ok_or(HierarchyError::NoOutside)?;
+        let unknown = |name| HierarchyError::UnknownSite { name };
+        let governors = ground.governors(axis).map_err(unknown)?;
+        let edges = ground.domain().edges();
+        let mut before = vec![0.0; edges.len()];
+        for walk in ground.domain().walks() {
+            let mut sum = 0.0;
+            for edge in walk.edges() {
+                before[edge as usize] = sum;
+                sum += edges[edge as usize].length;
+            }
+        }
+        let corner = |k: u32| Rect::EMPTY.with(edges[k as usize].start);
+        let tree = BoundsTree::new(0, edges.len() as u32, corner);
+        let fire = Fire::new(axis);
+        Ok(Self { ground, axis, governors, fire, before, tree })
+    }
+
+    /// The length of a walk from the start of one edge on to that of another one.
+    fn length_between(&self, from: u32, to: u32) -> f64 {
+        let way = self.before[to as usize] - self.before[from as usize];
+        if to >= from {
+            return way;
+        }
+        let domain = self.ground.domain();
+        let walk = domain.walks()[domain.edge(from).walk as usize];
+        let last = walk.first + walk.len - 1;
+        way + self.before[last as usize] + domain.edge(last).length
+    }
+
+    /// The path as the fire runs through it from one end.
+    fn limb(&self, path: &Path, time: f64, reach: f64) -> Limb<'_> {
+        let governor = |site: u32| self.governors[site as usize];
+        let (left, right) = (governor(path.left), governor(path.right));
+        Limb { hierarchy: self, curve: self.axis.curve(path), left, right, time, reach }
+    }
+
+    /// Goes through all parts of paths that burn, those nearer to the leaves first. `done` gets each, with
+    /// the largest value that comes from the leaves, and gives that at its end.
+    fn burn(&self, mut done: impl FnMut(&Part, &Limb<'_>, f64) -> f64) {
+        let n = self.axis.keypoints().len();
+        let (mut values, mut reaches) = (vec![0.0_f64; n], vec![0.0_f64; n]);
+        let mut both = Vec::new();
+        for &number in &self.fire.order {
+            let path = self.axis.paths().at(number);
+            let (path, forwards) = match self.fire.ways[number as usize] {
+                Way::Forwards => (path, true),
+                Way::Backwards => (path.reversed(), false),
+                Way::Both(length) => {
+                    both.push((number, length));
+                    continue;
+                }
+                Way::Never => continue,
+            };
+            let (from, to) = (path.from as usize, path.to as usize);
+            let limb = self.limb(&path, self.fire.times[from], reaches[from]);
+            let part = Part { path: number, forwards, to: path.to, end: 1.0, root: None };
+            let value = done(&part, &limb, values[from]);
+            values[to] = values[to].max(value);
+            reaches[to] = reaches[to].max(reaches[from] + self.fire.lengths[number as usize]);
+        }
+        for (number, length) in both {
+            let path = self.axis.paths().at(number);
+            // Inside, whatever the rounding.
+            let root = self.axis.curve(&path).parameter_at_length(length);
+            let root = root.clamp(f64::EPSILON, 1.0 - f64::EPSILON);
+            for (path, end, forwards) in [(path, root, true), (path.reversed(), 1.0 - root, false)]
+            {
+                let from = path.from as usize;
+                let limb = self.limb(&path, self.fire.times[from], reaches[from]);
+                let part = Part { path: number, forwards, to: path.to, end, root: Some(root) };
+                done(&part, &limb, values[from]);
+            }
+        }
+    }
+
+    /// The values of a measure on all paths.
+    #[must_use]
+    pub fn significance(&self, measure: Measure) -> Significance {
+        let all = Span { start: f64::INFINITY, end: f64::INFINITY, most: f64::INFINITY };
+        let mut paths = vec![all; self.axis.paths().len()];
+        self.burn(|part, limb, before| {
+            let first = before.max(limb.value(measure, 0.0));
+            let last = first.max(limb.value(measure, part.end));
+            let span = &mut paths[part.path as usize];
+            match (part.forwards, part.root) {
+                (true, None) => *span = Span { start: first, end: last, most: last },
+                (false, None) => *span = Span { start: last, end: first, most: last },
+                // What lies beyond the root belongs to the other end, which comes second.
+                (true, Some(_)) => *span = Span { start: first, end: first, most: last },
+                (false, Some(_)) => (span.end, span.most) = (first, span.most.max(last)),
+            }
+            last
+        });
+        Significance { measure, paths }
+    }
+
+    /// What is left if all that lies below a threshold is removed, from the leaves inwards.
+    ///
+    /// With [`Measure::Excess`] the threshold bounds the error.
+    #[must_use]
+    pub fn pruned(&self, measure: Measure, threshold: f64) -> Pruned {
+        let mut rest = Rest::of(self.axis);
+        // What is lost at a keypoint, if that is kept.
+        let mut lost: Vec<(u32, f64)> = Vec::new();
+        self.burn(|part, limb, before| {
+            let first = before.max(limb.value(measure, 0.0));
+            let last = first.max(limb.value(measure, part.end));
+            if first >= threshold {
+                return last;
+            }
+            let is_lost = last < threshold;
+            let cut = if is_lost { part.end } else { limb.reached(measure, threshold, part.end) };
+            let excess = limb.value(Measure::Excess, cut);
+            if is_lost && part.root.is_none() {
+                lost.push((part.to, excess));
+            } else {
+                rest.error = rest.error.max(excess);
+            }
+            let along = if part.forwards { cut } else { 1.0 - cut };
+            let along = part.root.filter(|_| is_lost).unwrap_or(along);
+            rest.cut(part.path, part.forwards, along);
+            last
+        });
+        rest.finish(&self.fire.roots, &lost)
+    }
+}
+
+/// Looks for the farthest corner of a walk, in a cyclic range in two parts.
+struct Farthest<'a> {
+    domain: &'a Domain,
+    from: Point,
+    ranges: [Range<u32>; 2],
+    distance2: f64,
+}
+
+impl Visitor for Farthest<'_> {
+    fn enters(&self, bounds: &Rect, items: Range<u32>) -> bool {
+        let meets = |range: &Range<u32>| items.start < range.end && range.start < items.end;
+        let (low, high) = (self.from - bounds.min, bounds.max - self.from);
+        let far = Point::new(low.x.abs().max(high.x.abs()), low.y.abs().max(high.y.abs()));
+        far.norm2() > self.distance2 && self.ranges.iter().any(meets)
+    }
+
+    fn item(&mut self, corner: u32) {
+        if self.ranges.iter().any(|range| range.contains(&corner)) {
+            let way = self.domain.edge(corner).start - self.from;
+            self.distance2 = self.distance2.max(way.norm2());
+        }
+    }
+}
+
+impl Limb<'_> {
+    /// The first parameter at which a measure reaches a threshold, if it does so before an end.
+    fn reached(&self, measure: Measure, threshold: f64, end: f64) -> f64 {
+        // Between these places every measure grows, falls or stays.
+        let neck = self.curve.neck().filter(|&neck| neck < end);
+        let middle = neck.filter(|&neck| self.value(measure, neck) >= threshold);
+        let (low, high) = match (middle, neck) {
+            (Some(neck), _) => (0.0, neck),
+            (None, Some(neck)) => (neck, end),
+            (None, None) => (0.0, end),
+        };
+        let at = |u: f64| low + (high - low) * u;
+        at(bisected(|u| self.value(measure, at(u)) - threshold))
+    }
+
+    /// The value of a measure at a parameter, by itself.
+    fn value(&self, measure: Measure, u: f64) -> f64 {
+        let (centre, radius) = (self.curve.point_at(u), self.curve.radius_at(u));
+        let length = || self.curve.piece(0.0, u).length();
+        let behind = || 2.0 * self.curve.growth_at(u).clamp(-1.0, 1.0).acos();
+        let value = match measure {
+            Measure::Excess => self.farthest(centre) - radius,
+            Measure::RelativeExcess if radius > 0.0 => (self.farthest(centre) - radius) / radius,
+            // Out of a corner it is the same all along.
+            Measure::RelativeExcess => self.value(measure, 1.0),
+            Measure::Potential => self.boundary(centre),
+            Measure::Chord => self.boundary(centre) - self.chord(centre),
+            Measure::Circularity => self.boundary(centre) - radius * behind(),
+            Measure::Erosion => self.time + length() - radius,
+            Measure::Length => self.reach + length(),
+            Measure::Angle => behind().min(std::f64::consts::TAU - behind()),
+            Measure::HalfChord => radius * (0.5 * behind()).sin(),
+            Measure::Radius => radius,
+        };
+        value.max(0.0)
+    }
+
+    /// How far along its edge a governor is touched, or where it is, if a corner.
+    fn foot(&self, site: Site, centre: Point) -> (f64, Point) {
+        let edge = self.hierarchy.ground.domain().edge(site.index());
+        if !site.is_edge() {
+            return (0.0, edge.start);
+        }
+        let along = edge.direction.dot(centre - edge.start).clamp(0.0, edge.length);
+        (along, edge.start + edge.direction * along)
+    }
+
+    fn chord(&self, centre: Point) -> f64 {
+        (self.foot(self.left, centre).1 - self.foot(self.right, centre).1).norm()
+    }
+
+    /// The first and the last corner of the boundary behind, between the footpoints.
+    fn corners(&self) -> (u32, u32) {
+        let left = self.left.index();
+        let first =
+            if self.left.is_edge() { self.hierarchy.ground.domain().edge(left).next } else { left };
+        (first, self.right.index())
+    }
+
+    /// The length of the boundary behind, between the footpoints.
+    fn boundary(&self, centre: Point) -> f64 {
+        let (first, last) = self.corners();
+        let domain = self.hierarchy.ground.domain();
+        let rest = |site: Site| {
+            let along = self.foot(site, centre).0;
+            if site.is_edge() { domain.edge(site.index()).length - along } else { 0.0 }
+        };
+        rest(self.left)
+            + self.hierarchy.length_between(first, last)
+            + self.foot(self.right, centre).0
+    }
+
+    /// The distance of the farthest corner behind.
+    fn farthest(&self, centre: Point) -> f64 {
+        let (first, last) = self.corners();
+        let domain = self.hierarchy.ground.domain();
+        let walk = domain.walks()[domain.edge(first).walk as usize];
+        let ranges = if first <= last {
+            [first..last + 1, 0..0]
+        } else {
+            [first..walk.first + walk.len, walk.first..last + 1]
+        };
+        let ends = [first, last].map(|k| (domain.edge(k).start - centre).norm2());
+        let distance2 = ends[0].max(ends[1]);
+        let mut farthest = Farthest { domain, from: centre, ranges, distance2 };
+        self.hierarchy.tree.visit(&mut farthest);
+        farthest.distance2.sqrt()
+    }
+}
