@@ -2,6 +2,7 @@ use crate::failure::{Failure, Status};
 use clap::error::ErrorKind;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use medial::axis::{Engine, Side};
+use medial::ops::Measure;
 use medial_io::Format;
 use medial_io::svg::Extra;
 use std::num::NonZeroUsize;
@@ -23,6 +24,9 @@ Exit status: 0 all done; 1 no usable result; 2 wrong usage; 3 some features were
 pub enum Command {
     /// Compute the medial axis of polygons
     Axis(AxisArgs),
+    /// Compute the medial axis of polygons and remove what is insignificant
+    #[command(after_help = PRUNE_HELP)]
+    Prune(AxisArgs),
     /// Compute the Voronoi diagram of the boundary elements of polygons
     Voronoi(VoronoiArgs),
     /// Find what of the boundary of polygons is nearest to a point
@@ -45,7 +49,28 @@ Examples:
 
 Exit status: 0 all done; 1 no usable result; 2 wrong usage; 3 some features were left out.";
 
-/// Arguments of `medial axis`.
+const PRUNE_HELP: &str = "\
+Points of the axis below a value of a measure are removed, from the leaves inwards, so components and
+cycles stay; paths are cut where the value is reached. Measures, in units of the input but for the last
+two of each line:
+  excess        how far the boundary moves if a disk takes the place of what is removed
+  potential, chord, circularity
+                boundary that is cut off; less its chord; less the arc of the disk that faces it
+  erosion, length
+                burn time less radius; the longest way to a leaf
+  half_chord, radius
+                half the distance of the footpoints, the radius: both may keep more than lies above
+  relative_excess, angle
+                excess as a share of the radius; the angle between footpoints in radians (may keep more)
+
+Examples:
+  medial prune fixtures/river.geojson --max-error 2 -o river.svg
+  medial prune fixtures/river.geojson --prune relative_excess=0.1 -o river.geojson
+  medial prune fixtures/river.geojson --prune erosion=1.5 --to json > river.axis.json
+
+Exit status: 0 all done; 1 no usable result; 2 wrong usage; 3 some features were left out.";
+
+/// Arguments of `medial axis` and `medial prune`.
 #[derive(Debug, Args)]
 #[command(after_help = AXIS_HELP)]
 pub struct AxisArgs {
@@ -64,6 +89,8 @@ pub struct AxisArgs {
     pub engine: Engine,
     #[command(flatten)]
     pub region: Region,
+    #[command(flatten)]
+    pub pruning: Pruning,
     /// Largest distance between a curve and the polyline drawn for it, in units of the input; by
     /// default 1e-4 of the longer side of the feature's box
     #[arg(long, value_name = "T", value_parser = positive, allow_negative_numbers = true)]
@@ -206,6 +233,27 @@ pub struct CompareArgs {
     pub region: Region,
     #[command(flatten)]
     pub common: Common,
+}
+
+/// What is removed from axes.
+#[derive(Debug, Args)]
+pub struct Pruning {
+    /// Remove what lies below this value of a measure, from the leaves inwards: excess,
+    /// relative_excess, potential, chord, circularity, erosion, length, angle, half_chord, radius
+    #[arg(long, value_name = "MEASURE=VALUE", value_parser = threshold,
+          conflicts_with = "max_error")]
+    pub prune: Option<(Measure, f64)>,
+    /// Remove branches for as long as the boundary moves by less than this, in units of the input:
+    /// short for --prune excess=V
+    #[arg(long, value_name = "V", value_parser = not_negative, allow_negative_numbers = true)]
+    pub max_error: Option<f64>,
+}
+
+impl Pruning {
+    /// The measure and the value below which points are removed, if any are.
+    pub fn threshold(&self) -> Option<(Measure, f64)> {
+        self.prune.or(self.max_error.map(|error| (Measure::Excess, error)))
+    }
 }
 
 /// Where axes are computed.
@@ -368,6 +416,19 @@ fn positive(word: &str) -> Result<f64, String> {
         Ok(value) if value.is_finite() && value > 0.0 => Ok(value),
         _ => Err("a positive number is needed".to_owned()),
     }
+}
+
+fn not_negative(word: &str) -> Result<f64, String> {
+    match word.parse::<f64>() {
+        Ok(value) if value >= 0.0 => Ok(value),
+        _ => Err("a number that is not negative is needed".to_owned()),
+    }
+}
+
+fn threshold(word: &str) -> Result<(Measure, f64), String> {
+    let (name, value) = word.split_once('=').ok_or("MEASURE=VALUE is needed, as excess=2.5")?;
+    let measure = name.parse().map_err(|error: medial::axis::UnknownName| error.to_string())?;
+    Ok((measure, not_negative(value)?))
 }
 
 fn coordinate(word: &str) -> Result<f64, String> {

@@ -31,6 +31,7 @@ fn main() -> ExitCode {
 fn run() -> Result<Status, Failure> {
     match args::parse()? {
         Command::Axis(args) => commands::axis::run(&args),
+        Command::Prune(args) => commands::axis::prune(&args),
         Command::Voronoi(args) => commands::voronoi::run(&args),
         Command::Locate(args) => commands::locate::run(&args),
         Command::Check(args) => commands::check::run(&args),

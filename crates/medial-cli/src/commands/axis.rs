@@ -8,10 +8,21 @@ use crate::timings::timed;
 use medial::axis::{Engine, MedialAxis, Side};
 use medial::domain::Domain;
 use medial::engine::{self, EngineError, both_sides, exterior, interior};
+use medial::ops::{Hierarchy, HierarchyError};
 use medial_io::svg::Options;
 use medial_io::{Drawing, Format};
 use std::io::IsTerminal as _;
 use std::path::Path;
+
+/// `medial prune`: `medial axis`, told what to remove.
+pub fn prune(args: &AxisArgs) -> Result<Status, Failure> {
+    match args.pruning.threshold() {
+        Some(_) => run(args),
+        None => Err(Failure::Usage(
+            "say what to remove: --max-error V, or --prune MEASURE=VALUE; see --help".to_owned(),
+        )),
+    }
+}
 
 /// `medial axis`.
 pub fn run(args: &AxisArgs) -> Result<Status, Failure> {
@@ -43,8 +54,17 @@ pub fn run(args: &AxisArgs) -> Result<Status, Failure> {
         at_once,
         |feature, domain, stages, bytes| {
             // All that is asked of a feature, or nothing.
-            let axes =
+            let mut axes =
                 timed(&mut stages.engine, || trace(args.engine, &args.region, domain, &options))?;
+            if let Some((measure, value)) = args.pruning.threshold() {
+                let pruned = |axis: &MedialAxis| {
+                    let hierarchy = Hierarchy::new(domain, axis).map_err(|e| not_burnt(&e))?;
+                    Ok(hierarchy.pruned(measure, value).axis)
+                };
+                axes = timed(&mut stages.operations, || {
+                    axes.iter().map(pruned).collect::<Result<_, _>>()
+                })?;
+            }
             Ok(timed(&mut stages.write, || encode(format, drawing, feature, domain, axes, bytes)))
         },
         |drawn| scenes.extend(drawn),
@@ -56,6 +76,17 @@ pub fn run(args: &AxisArgs) -> Result<Status, Failure> {
     run.stages.write += write;
     run.finish()?;
     Ok(status)
+}
+
+/// Why nothing can be removed.
+fn not_burnt(error: &HierarchyError) -> Entry {
+    match error {
+        HierarchyError::Incomplete => Entry::refused(
+            "incomplete",
+            "the frame cuts more of the exterior axis than paths to infinity; give a larger --frame",
+        ),
+        _ => Entry::refused("internal", error.to_string()),
+    }
 }
 
 /// The axes of a feature by an engine, one for each side that is asked for, or why it is refused.

@@ -1,0 +1,76 @@
+//! `medial prune`, as a user meets it.
+
+mod common;
+
+use common::{fixture, medial, medial_with};
+use serde_json::Value;
+
+const RECTANGLE: &str = "POLYGON ((0 0, 6 0, 6 2, 0 2, 0 0))";
+
+fn axis(args: &[&str]) -> Value {
+    let words = [&["prune", "-", "--to", "json"], args].concat();
+    let run = medial_with(&words, RECTANGLE);
+    assert_eq!((run.status, run.errors.as_str()), (Some(0), ""));
+    serde_json::from_str(run.text()).unwrap()
+}
+
+#[test]
+fn branches_below_an_error_are_removed() {
+    let pruned = axis(&["--max-error", "0.5"]);
+    assert_eq!(pruned["complete"], false);
+    let kinds: Vec<&Value> =
+        pruned["keypoints"].as_array().unwrap().iter().map(|k| &k["kind"]).collect();
+    assert_eq!(kinds, ["tip", "tip"]);
+    assert_eq!(pruned, axis(&["--prune", "excess=0.5"]));
+    // More than the corners are worth.
+    assert_eq!(axis(&["--max-error", "0"])["complete"], true);
+}
+
+#[test]
+fn every_measure_is_known() {
+    let measures = "excess relative_excess potential chord circularity erosion length angle \
+                    half_chord radius";
+    for name in measures.split_whitespace() {
+        let pruned = axis(&["--prune", &format!("{name}=1e9")]);
+        // The root stays.
+        assert_eq!(pruned["keypoints"].as_array().unwrap().len(), 1, "{name}");
+        assert_eq!(pruned["keypoints"][0]["x"], 3.0, "{name}");
+    }
+}
+
+#[test]
+fn what_is_pruned_is_judged_like_any_axis() {
+    let river = fixture("river.geojson").display().to_string();
+    let pruned = medial(&[
+        "axis",
+        &river,
+        "--side",
+        "both",
+        "--frame",
+        "1e6",
+        "--max-error",
+        "3",
+        "--to",
+        "json",
+    ]);
+    assert_eq!((pruned.status, pruned.errors.as_str()), (Some(0), ""));
+    let run = medial_with(&["check", &river, "-"], pruned.text());
+    assert_eq!(run.status, Some(0), "{}", run.text());
+    assert!(run.text().contains("tips where it was cut or pruned"), "{}", run.text());
+}
+
+#[test]
+fn wrong_usage_is_told_in_one_line() {
+    for (args, told) in [
+        (&[][..], "say what to remove"),
+        (&["--prune", "excess"][..], "MEASURE=VALUE is needed"),
+        (&["--prune", "beauty=2"][..], "no measure; known are excess"),
+        (&["--prune", "chord=-2"][..], "not negative"),
+        (&["--prune", "chord=2", "--max-error", "1"][..], "cannot be used with"),
+    ] {
+        let words = [&["prune", "-"], args].concat();
+        let run = medial_with(&words, RECTANGLE);
+        assert_eq!((run.status, run.out.len()), (Some(2), 0), "{args:?}");
+        assert!(run.errors.contains(told) && run.errors.lines().count() == 1, "{}", run.errors);
+    }
+}
