@@ -21,7 +21,10 @@
 //! 5. Holes are merged after those that they may lie in (`order.rs`), each with a closed curve around it,
 //!    which starts where a normal of the walk, or another arc around its reflex corners, is lost to the
 //!    others (`rings.rs`, `around.rs`).
-//! 6. The axis is what the cells of the inner sides have for arcs, without the normals of edges at their
+//! 6. Several threads make subtrees of the merge tree apart (`forest.rs`). For both sides of the boundary
+//!    the rings are made once, and what lies outside them gets the numbers of the complement
+//!    (`turned.rs`), where steps 5 and 7 are done again.
+//! 7. The axis is what the cells of the inner sides have for arcs, without the normals of edges at their
 //!    own ends [Lee82, cor. 3] (`extract.rs`).
 //!
 //! # Departures
@@ -45,7 +48,7 @@
 //!   the other chain lie between two neighbouring ones, and exactly the arc between those is lost.
 //! - Chains are pairs of edges: the diagram of a chain of reflex corners is not built directly, since on
 //!   its other side it is no simpler than any. The last merge of a ring follows the curve on the left
-//!   side only, as nobody asks for right sides after it.
+//!   side only, unless the outside is asked for as well.
 //! - Of the two cells beside a piece the one that the curve entered last is asked first. Where that has
 //!   something before the last vertex which the other one was found to lose, the other one is not asked:
 //!   a curve passes the arcs of a cell in their order.
