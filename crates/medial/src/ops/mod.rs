@@ -1,12 +1,15 @@
 //! What is made of an axis.
 
+mod centerline;
 mod fire;
 mod ground;
 mod hierarchy;
+mod incidence;
 mod measure;
 mod rest;
 mod voronoi;
 
+pub use centerline::{Centerline, CenterlineOptions, Widths, centerlines};
 pub use hierarchy::{Hierarchy, HierarchyError, Significance, Span};
 pub use measure::Measure;
 pub use rest::Pruned;

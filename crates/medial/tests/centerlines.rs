@@ -1,0 +1,136 @@
+//! Centerlines: by hand, and against all pairs of keypoints.
+
+mod support;
+
+use medial::axis::MedialAxis;
+use medial::domain::{self, Domain};
+use medial::engine::path_tracing;
+use medial::geom::Point;
+use medial::ops::{Centerline, CenterlineOptions, Hierarchy, centerlines};
+use support::random::{self, Family, Ground, Random};
+use support::shapes;
+
+fn lines(wkt: &str, options: &CenterlineOptions) -> Vec<Centerline> {
+    let domain = shapes::wkt(wkt);
+    let axis = path_tracing(&domain).unwrap();
+    centerlines(&domain, &axis, options).unwrap()
+}
+
+fn close(a: f64, b: f64) -> bool {
+    (a - b).abs() < 1e-12
+}
+
+#[test]
+fn an_l_has_one_line_around_its_corner() {
+    // Arms of width 2, 10 and 8 long.
+    let l = "POLYGON ((0 0, 10 0, 10 2, 2 2, 2 8, 0 8, 0 0))";
+    let options = CenterlineOptions { to_boundary: true, ..CenterlineOptions::default() };
+    let lines = lines(l, &options);
+    assert_eq!(lines.len(), 1);
+    let line = &lines[0];
+    assert!(line.is_longest);
+    let mut ends = line.extensions.map(Option::unwrap);
+    ends.sort_by(|a, b| a.x.total_cmp(&b.x));
+    assert_eq!(ends, [Point::new(1.0, 8.0), Point::new(10.0, 1.0)]);
+    // Around the corner at (2, 2) it is two quarters of parabolas over edges, 2 wide.
+    let points = line.polyline(1e-3);
+    assert!(points.iter().all(|(p, r)| *r <= 1.2 && p.x >= 0.9 && p.y >= 0.9), "{points:?}");
+    let widths = line.widths();
+    assert!(close(widths.least, 2.0) && widths.greatest < 2.4 && widths.mean < 2.2, "{widths:?}");
+    assert!((15.0..16.0).contains(&line.length()), "{}", line.length());
+}
+
+#[test]
+fn a_ring_without_ends_is_closed() {
+    let frame = "POLYGON ((0 0, 9 0, 9 9, 0 9, 0 0), (3 3, 3 6, 6 6, 6 3, 3 3))";
+    let options = CenterlineOptions { to_boundary: true, ..CenterlineOptions::default() };
+    let lines = lines(frame, &options);
+    let line = &lines[0];
+    assert_eq!(line.curves.first().unwrap().from(), line.curves.last().unwrap().to());
+    assert_eq!(line.extensions, [None, None]);
+    // Four sides of 3, and four quarters of parabolas with their foci in the corners of the hole, 3 from
+    // the edges.
+    let quarter =
+        2.0 * 1.5 * ((2.0_f64.sqrt() - 1.0) * 2.0_f64.sqrt() + (2.0_f64.sqrt() - 1.0).asinh());
+    assert!(line.length() > 12.0 && line.length() < 12.0 + 4.0 * quarter, "{}", line.length());
+}
+
+#[test]
+fn further_lines_are_tributaries() {
+    // A T: the bar, then the stem.
+    let t = "POLYGON ((0 10, 0 8, 9 8, 9 0, 11 0, 11 8, 20 8, 20 10, 0 10))";
+    let options = CenterlineOptions { count: 9, to_boundary: true, ..CenterlineOptions::default() };
+    let lines = lines(t, &options);
+    assert_eq!(lines.len(), 2);
+    assert!(close(lines[0].length(), 20.0) || lines[0].length() > 19.9, "{}", lines[0].length());
+    assert!(lines[1].length() > 8.0 && lines[1].length() < 9.5, "{}", lines[1].length());
+    assert!(lines[1].polyline(0.1).iter().any(|(p, _)| *p == Point::new(10.0, 0.0)));
+}
+
+#[test]
+fn a_square_has_its_diagonal() {
+    let lines = lines("POLYGON ((0 0, 2 0, 2 2, 0 2, 0 0))", &CenterlineOptions::default());
+    assert_eq!(lines.len(), 1);
+    assert!(close(lines[0].length(), 8_f64.sqrt()), "{}", lines[0].length());
+}
+
+/// The greatest of all shortest distances between keypoints of one component.
+fn diameter(axis: &MedialAxis) -> f64 {
+    let n = axis.keypoints().len();
+    let mut between = vec![f64::INFINITY; n * n];
+    (0..n).for_each(|k| between[k * n + k] = 0.0);
+    for path in axis.paths() {
+        let (a, b, length) = (path.from as usize, path.to as usize, axis.curve(&path).length());
+        for at in [a * n + b, b * n + a] {
+            between[at] = between[at].min(length);
+        }
+    }
+    for k in 0..n {
+        for a in 0..n {
+            for b in 0..n {
+                between[a * n + b] =
+                    between[a * n + b].min(between[a * n + k] + between[k * n + b]);
+            }
+        }
+    }
+    between.into_iter().filter(|d| d.is_finite()).fold(0.0, f64::max)
+}
+
+#[test]
+fn no_two_points_of_random_shapes_are_farther_apart() {
+    let random = &mut Random(601);
+    let options = domain::Options { regroup: true, ..domain::Options::default() };
+    let mut tried = 0;
+    while tried < 150 {
+        let (family, ground, most) = match tried % 3 {
+            0 => (Family::Tangle, Ground::Square, 30),
+            1 => (Family::Holes, Ground::Grid(30), 60),
+            _ => (Family::Holes, Ground::Square, 80),
+        };
+        let polygons = random::large_shape(random, family, ground, most);
+        let Ok(domain) = Domain::from_polygons(&polygons, &options) else { continue };
+        if domain.n_components() > 1 {
+            continue;
+        }
+        tried += 1;
+        let axis = path_tracing(&domain).unwrap();
+        let asked = CenterlineOptions::default();
+        let pruned =
+            Hierarchy::new(&domain, &axis).unwrap().pruned(asked.ends.0, asked.ends.1).axis;
+        let lines = centerlines(&domain, &axis, &asked).unwrap();
+        let wkt = || shapes::to_wkt(&polygons);
+        assert_eq!(lines.len(), 1, "{}", wkt());
+        let line = &lines[0];
+        for pair in line.curves.windows(2) {
+            assert_eq!(pair[0].to(), pair[1].from(), "{}", wkt());
+        }
+        let of = if pruned.paths().is_empty() { &axis } else { &pruned };
+        let (length, most) = (line.length(), diameter(of));
+        let is_closed = line.curves.first().unwrap().from() == line.curves.last().unwrap().to();
+        // A closed line is all there is.
+        let all: f64 = of.paths().iter().map(|path| of.curve(&path).length()).sum();
+        let expected = if is_closed { all } else { most };
+        assert!(line.is_longest, "{}", wkt());
+        assert!((length / expected - 1.0).abs() < 1e-12, "{length} of {expected}: {}", wkt());
+    }
+}
