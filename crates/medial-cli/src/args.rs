@@ -27,6 +27,8 @@ pub enum Command {
     /// Compute the medial axis of polygons and remove what is insignificant
     #[command(after_help = PRUNE_HELP)]
     Prune(AxisArgs),
+    /// Compute the main line of polygons, or the longest few, with widths
+    Centerline(CenterlineArgs),
     /// Compute the Voronoi diagram of the boundary elements of polygons
     Voronoi(VoronoiArgs),
     /// Find what of the boundary of polygons is nearest to a point
@@ -107,6 +109,62 @@ pub struct AxisArgs {
     pub draw: Vec<Extra>,
     #[command(flatten)]
     pub common: Common,
+}
+
+const CENTERLINE_HELP: &str = "\
+A line runs through the axis between the two ends that are farthest apart, by the shortest way between
+them; corners blunter than some 84 degrees are no ends. Around holes it takes the shorter side; a ring
+without ends has one closed line. Further lines (--count) use no part of those before.
+
+Examples:
+  medial centerline fixtures/river.geojson -o river.line.geojson
+  medial centerline fixtures/river.geojson --count 3 --extend boundary --tolerance 0.1
+  medial centerline fixtures/shapes/plus_of_unit_squares.wkt --max-error 0.2 --z radius --to wkt
+
+Exit status: 0 all done; 1 no usable result; 2 wrong usage; 3 some features were left out.";
+
+/// Arguments of `medial centerline`.
+#[derive(Debug, Args)]
+#[command(after_help = CENTERLINE_HELP)]
+pub struct CenterlineArgs {
+    /// Polygons: GeoJSON, GeoJSON lines, WKT, WKB or rings; `-` for standard input
+    pub input: PathBuf,
+    /// File to write; by default, and for `-`, standard output
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<PathBuf>,
+    /// Format of the output: geojson, geojsonl, wkt; by default that of the extension, on standard
+    /// output geojson
+    #[arg(long, value_name = "FORMAT")]
+    pub to: Option<Format>,
+    /// Who computes the axis: path_tracing, divide_and_conquer
+    #[arg(long, value_name = "NAME", default_value = "path_tracing", value_parser = engine)]
+    pub engine: Engine,
+    /// How many lines of each feature, at most
+    #[arg(long, value_name = "N", default_value = "1")]
+    pub count: NonZeroUsize,
+    /// How far lines go on straight beyond the axis
+    #[arg(long, value_name = "WHERE", default_value = "none")]
+    pub extend: Extend,
+    #[command(flatten)]
+    pub pruning: Pruning,
+    /// Largest distance between a curve and the polyline drawn for it, in units of the input; by
+    /// default 1e-4 of the longer side of the feature's box
+    #[arg(long, value_name = "T", value_parser = positive, allow_negative_numbers = true)]
+    pub tolerance: Option<f64>,
+    /// Write the radius as third coordinate
+    #[arg(long, value_name = "VALUE")]
+    pub z: Option<Height>,
+    #[command(flatten)]
+    pub common: Common,
+}
+
+/// How far a centerline goes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Extend {
+    /// Not beyond the axis.
+    None,
+    /// Up to the boundary.
+    Boundary,
 }
 
 const VORONOI_HELP: &str = "\

@@ -32,6 +32,7 @@ fn run() -> Result<Status, Failure> {
     match args::parse()? {
         Command::Axis(args) => commands::axis::run(&args),
         Command::Prune(args) => commands::axis::prune(&args),
+        Command::Centerline(args) => commands::centerline::run(&args),
         Command::Voronoi(args) => commands::voronoi::run(&args),
         Command::Locate(args) => commands::locate::run(&args),
         Command::Check(args) => commands::check::run(&args),

@@ -79,7 +79,7 @@ pub fn run(args: &AxisArgs) -> Result<Status, Failure> {
 }
 
 /// Why nothing can be removed.
-fn not_burnt(error: &HierarchyError) -> Entry {
+pub fn not_burnt(error: &HierarchyError) -> Entry {
     match error {
         HierarchyError::Incomplete => Entry::refused(
             "incomplete",

@@ -1,4 +1,5 @@
 pub mod axis;
+pub mod centerline;
 pub mod check;
 pub mod compare;
 mod features;

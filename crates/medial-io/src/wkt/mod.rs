@@ -8,7 +8,7 @@ mod write;
 pub(crate) use write::line_string;
 
 pub use read::read;
-pub use write::write;
+pub use write::{write, write_lines};
 
 #[cfg(test)]
 mod tests;

@@ -30,6 +30,18 @@ pub fn write(axis: &MedialAxis, drawing: Drawing) -> String {
     out
 }
 
+/// Lines, each of points with a radius, as one MULTILINESTRING with its line end; with the radius as
+/// third coordinate if asked for.
+#[must_use]
+pub fn write_lines(lines: &[Vec<(Point, f64)>], radius_as_z: bool) -> String {
+    let mut out = String::from(if radius_as_z { "MULTILINESTRING Z " } else { "MULTILINESTRING " });
+    group(&mut out, lines, |out, line| {
+        group(out, line, |out, &(p, radius)| point(out, p, radius_as_z.then_some(radius)));
+    });
+    out.push('\n');
+    out
+}
+
 /// About as many bytes as a line takes.
 const LINE_BYTES: usize = 100;
 

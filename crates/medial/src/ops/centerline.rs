@@ -70,6 +70,13 @@ pub struct Widths {
 }
 
 impl Centerline {
+    /// Whether it ends where it starts.
+    #[must_use]
+    pub fn is_closed(&self) -> bool {
+        let ends = self.curves.first().map(Curve::from).zip(self.curves.last().map(Curve::to));
+        ends.is_some_and(|(from, to)| from == to)
+    }
+
     /// Its length inside the axis and, if it goes on to the boundary, beyond.
     #[must_use]
     pub fn length(&self) -> f64 {
