@@ -19,6 +19,7 @@
 //! # Departures
 //! The root of a tree is where it burns last; the papers leave it to be found otherwise.
 
+use std::cell::Cell;
 use std::ops::Range;
 
 use super::fire::{Fire, Way};
@@ -92,7 +93,16 @@ struct Limb<'h> {
     /// When its start burns, and the longest way to a leaf there.
     time: f64,
     reach: f64,
+    /// The squared distance of the farthest corner behind that was found last, and which it was: mostly
+    /// it stays the same along the way.
+    far: Cell<(f64, u32)>,
 }
+
+/// No corner.
+const NONE: u32 = u32::MAX;
+
+/// Corners up to which each is asked how far it is.
+const FEW: usize = 16;
 
 /// A path, or a part of one, that burns in one direction.
 struct Part {
@@ -170,10 +180,18 @@ impl<'a> Hierarchy<'a> {
     }
 
     /// The path as the fire runs through it from one end.
-    fn limb(&self, path: &Path, time: f64, reach: f64) -> Limb<'_> {
+    fn limb(&self, path: &Path, time: f64, reach: f64, far: (f64, u32)) -> Limb<'_> {
         let governor = |site: u32| self.governors[site as usize];
         let (left, right) = (governor(path.left), governor(path.right));
-        Limb { hierarchy: self, curve: self.axis.curve(path), left, right, time, reach }
+        Limb {
+            hierarchy: self,
+            curve: self.axis.curve(path),
+            left,
+            right,
+            time,
+            reach,
+            far: Cell::new(far),
+        }
     }
 
     /// Goes through all parts of paths that burn, those nearer to the leaves first. `done` gets each, with
@@ -181,6 +199,7 @@ impl<'a> Hierarchy<'a> {
     fn burn(&self, mut done: impl FnMut(&Part, &Limb<'_>, f64) -> f64) {
         let n = self.axis.keypoints().len();
         let (mut values, mut reaches) = (vec![0.0_f64; n], vec![0.0_f64; n]);
+        let mut fars = vec![(0.0, NONE); n];
         let mut both = Vec::new();
         for &number in &self.fire.order {
             let path = self.axis.paths().at(number);
@@ -194,10 +213,13 @@ impl<'a> Hierarchy<'a> {
                 Way::Never => continue,
             };
             let (from, to) = (path.from as usize, path.to as usize);
-            let limb = self.limb(&path, self.fire.times[from], reaches[from]);
+            let limb = self.limb(&path, self.fire.times[from], reaches[from], fars[from]);
             let part = Part { path: number, forwards, to: path.to, end: 1.0, root: None };
             let value = done(&part, &limb, values[from]);
             values[to] = values[to].max(value);
+            if limb.far.get().0 > fars[to].0 {
+                fars[to] = limb.far.get();
+            }
             reaches[to] = reaches[to].max(reaches[from] + self.fire.lengths[number as usize]);
         }
         for (number, length) in both {
@@ -208,7 +230,7 @@ impl<'a> Hierarchy<'a> {
             for (path, end, forwards) in [(path, root, true), (path.reversed(), 1.0 - root, false)]
             {
                 let from = path.from as usize;
-                let limb = self.limb(&path, self.fire.times[from], reaches[from]);
+                let limb = self.limb(&path, self.fire.times[from], reaches[from], fars[from]);
                 let part = Part { path: number, forwards, to: path.to, end, root: Some(root) };
                 done(&part, &limb, values[from]);
             }
@@ -273,6 +295,7 @@ struct Farthest<'a> {
     from: Point,
     ranges: [Range<u32>; 2],
     distance2: f64,
+    corner: u32,
 }
 
 impl Visitor for Farthest<'_> {
@@ -285,8 +308,10 @@ impl Visitor for Farthest<'_> {
 
     fn item(&mut self, corner: u32) {
         if self.ranges.iter().any(|range| range.contains(&corner)) {
-            let way = self.domain.edge(corner).start - self.from;
-            self.distance2 = self.distance2.max(way.norm2());
+            let distance2 = (self.domain.edge(corner).start - self.from).norm2();
+            if distance2 > self.distance2 {
+                (self.distance2, self.corner) = (distance2, corner);
+            }
         }
     }
 }
@@ -373,10 +398,19 @@ impl Limb<'_> {
         } else {
             [first..walk.first + walk.len, walk.first..last + 1]
         };
-        let ends = [first, last].map(|k| (domain.edge(k).start - centre).norm2());
-        let distance2 = ends[0].max(ends[1]);
-        let mut farthest = Farthest { domain, from: centre, ranges, distance2 };
-        self.hierarchy.tree.visit(&mut farthest);
+        let mut farthest = Farthest { domain, from: centre, ranges, distance2: 0.0, corner: first };
+        let [begin, end] = &farthest.ranges;
+        if begin.len() + end.len() <= FEW {
+            begin.clone().chain(end.clone()).for_each(|corner| farthest.item(corner));
+        } else {
+            for corner in [first, last, self.far.get().1] {
+                if corner != NONE {
+                    farthest.item(corner);
+                }
+            }
+            self.hierarchy.tree.visit(&mut farthest);
+        }
+        self.far.set((farthest.distance2, farthest.corner));
         farthest.distance2.sqrt()
     }
 }
