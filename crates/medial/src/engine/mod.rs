@@ -10,7 +10,8 @@ mod path_tracing;
 mod watch;
 
 pub use divide_and_conquer::{
-    Work, divide_and_conquer, divide_and_conquer_counted, divide_and_conquer_with,
+    ArcEnd, Chain, ChainArc, ChainElement, ChainMerge, Work, chain_diagram, chain_merge,
+    divide_and_conquer, divide_and_conquer_counted, divide_and_conquer_with,
 };
 pub use error::EngineError;
 pub use exterior::{exterior, exterior_frame, interior};
