@@ -51,6 +51,12 @@ Where steps ÷ log₂ edges does not grow, the merges take n log n steps at wors
 
 """
 
+LEE = """The polygons of [the gallery](gallery/README.md) for the figures of [Lee82]: medians of the processor time of one thread in microseconds, here for the whole polygon.
+They are of the same kind as those of the paper, not the same.
+Beside its figure 9 the paper prints `CP TIME: .569 SEC`; its program was written in Fortran and run under FTN with PLOT-10, on a machine that the paper does not name, and the time may include reading and plotting.
+
+"""
+
 FILES = """Whole layers, each feature a domain of its own; columns as for the shapes, *as given* is medial on the coordinates of the file.
 All others get whole numbers: each feature enlarged by a power of two, and shifted, to fill 31 bits, and rounded.
 Features that bound no domain are left out, and so are those where, after rounding, edges meet elsewhere than at ends, which Boost cannot take.
@@ -69,6 +75,7 @@ PARTS = {
     "shapes": ("Shapes", SHAPES + ROUNDS + PROCESSOR),
     "rivals": ("Slow rivals", RIVALS + ROUNDS + PROCESSOR),
     "steps": (steps.TITLE, STEPS),
+    "lee": ("Figures of Lee", LEE + PROCESSOR),
     "files": ("Real files", FILES + ROUNDS + PROCESSOR),
     "buildings": ("Buildings, file to file", BUILDINGS + PROCESSOR),
 }

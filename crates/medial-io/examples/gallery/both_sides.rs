@@ -1,6 +1,6 @@
+use crate::lee;
 use crate::lesson::Lesson;
-use crate::shape::{Fallible, Shape};
-use crate::voronoi::RING;
+use crate::shape::Fallible;
 use medial::axis::Engine;
 use medial::engine::{self, exterior, exterior_frame};
 use medial::ops::Voronoi;
@@ -19,7 +19,7 @@ pub const LESSON: Lesson = Lesson {
 const MARGIN: f64 = 2.5;
 
 fn draw() -> Fallible<String> {
-    let shape = Shape::new(&RING)?;
+    let shape = lee::shape(3)?;
     let options = engine::Options::default();
     let outside = exterior(&shape.domain, Engine::PathTracing, Some(MARGIN), &options)?;
     let axes = [shape.axis, outside];

@@ -1,4 +1,5 @@
-//! The figures of [JPV], drawn again from values the library returns, as twelve lessons; and more pictures.
+//! The figures of [JPV], drawn again from values the library returns, as twelve lessons; those of [Lee82];
+//! and more pictures.
 //!
 //! `cargo run -p medial-io --example gallery -- DIR` writes them, and a README, into a folder.
 //! Nothing here computes an axis: the shapes are given, all else is asked of `medial`.
@@ -6,6 +7,13 @@
 mod both_sides;
 mod bounds;
 mod lake;
+mod lee;
+mod lee_1_2;
+mod lee_5;
+mod lee_6;
+mod lee_7;
+mod lee_8;
+mod lee_9_11;
 mod lesson;
 mod letter;
 mod shape;
@@ -48,9 +56,15 @@ const LESSONS: [Lesson; 12] = [
 ];
 
 /// Pictures besides, each in a file of its name.
-const PICTURES: [(&str, Lesson); 4] = [
+const PICTURES: [(&str, Lesson); 10] = [
+    ("lee-1-2", lee_1_2::LESSON),
     ("voronoi", voronoi::LESSON),
     ("both-sides", both_sides::LESSON),
+    ("lee-5", lee_5::LESSON),
+    ("lee-6", lee_6::LESSON),
+    ("lee-7", lee_7::LESSON),
+    ("lee-8", lee_8::LESSON),
+    ("lee-9-11", lee_9_11::LESSON),
     ("letter", letter::LESSON),
     ("lake", lake::LESSON),
 ];
@@ -58,8 +72,8 @@ const PICTURES: [(&str, Lesson); 4] = [
 const HEAD: &str = "\
 # Gallery
 
-The twelve figures of [JPV] and two of [Lee82] (see [REFERENCES.md](../../REFERENCES.md)), drawn again, and a few real shapes.
-Nothing here is drawn by hand: [the example `gallery`](../../crates/medial-io/examples/gallery/main.rs) gives the polygons and draws what the library returns for them, after `check::defects` has found nothing wrong with it.
+The twelve figures of [JPV] and the eleven of [Lee82] (see [REFERENCES.md](../../REFERENCES.md)), drawn again, and a few real shapes.
+Nothing here is drawn by hand: [the example `gallery`](../../crates/medial-io/examples/gallery/main.rs) gives the polygons, or takes those of `fixtures/lee`, and draws what the library returns for them, an axis after `check::defects` has found nothing wrong with it.
 `scripts/figures` draws everything anew.
 
 ";

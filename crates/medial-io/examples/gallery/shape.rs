@@ -35,7 +35,11 @@ impl Shape {
     /// The shape with one ring; refused if the judge finds a defect of its axis.
     pub fn new(ring: &[(f64, f64)]) -> Fallible<Self> {
         let ring: Vec<Point> = ring.iter().map(|&(x, y)| Point::new(x, y)).collect();
-        let domain = Domain::from_polygons(&[vec![ring]], &Options::default())?;
+        Self::of(Domain::from_polygons(&[vec![ring]], &Options::default())?)
+    }
+
+    /// The shape of a domain; refused if the judge finds a defect of its axis.
+    pub fn of(domain: Domain) -> Fallible<Self> {
         let axis = judged(&domain)?;
         let steps = path_tracing_steps(&domain)?.collect::<Result<_, _>>()?;
         Ok(Self { domain, axis, steps })

@@ -302,6 +302,27 @@ impl Panel<'_> {
         end
     }
 
+    /// A half-line in the direction of a unit vector, beyond the panel's border wherever it starts.
+    pub fn onwards(&mut self, from: Point, way: Point, style: &str) {
+        let (low, high) = self.window;
+        let reach = (high - low).norm() + (from - (low + high) * 0.5).norm();
+        self.line(from, from + way * reach, style);
+    }
+
+    /// Draws so that what lies beyond the panel's border is cut off.
+    pub fn clipped(&mut self, draw: impl FnOnce(&mut Self)) {
+        let (a, b) = (self.map(self.window.0), self.map(self.window.1));
+        let [x, y, w, h] = [a.x, b.y, b.x - a.x, a.y - b.y].map(px);
+        let name = format!("panel-{}", self.sheet.panels);
+        let _ = writeln!(
+            self.sheet.body,
+            "<clipPath id=\"{name}\"><rect x=\"{x}\" y=\"{y}\" width=\"{w}\" height=\"{h}\"/></clipPath>\n\
+             <g clip-path=\"url(#{name})\">"
+        );
+        draw(self);
+        self.sheet.body += "</g>\n";
+    }
+
     /// An arrowhead of this colour at `tip`.
     pub fn head(&mut self, tip: Point, towards: Point, color: &str) {
         let tip = self.map(tip);

@@ -64,3 +64,26 @@ pub const SHORE: &str = "fill=\"#dbeaf4\" fill-rule=\"evenodd\" stroke=\"#5d7f92
 /// An axis with very many paths.
 pub const FINE: &str =
     "fill=\"none\" stroke=\"#8e24aa\" stroke-width=\"1.3\" stroke-linecap=\"round\"";
+/// Boundary that takes no part.
+pub const REST: &str =
+    "fill=\"#f4f6f8\" stroke=\"#b0bec5\" stroke-width=\"1.3\" stroke-linejoin=\"round\"";
+/// Boundary of a list of elements.
+pub const LIST: &str =
+    "fill=\"none\" stroke=\"#263238\" stroke-width=\"2.6\" stroke-linecap=\"round\"";
+pub const FIRST_LIST: &str =
+    "fill=\"none\" stroke=\"#1565c0\" stroke-width=\"2.6\" stroke-linecap=\"round\"";
+pub const SECOND_LIST: &str =
+    "fill=\"none\" stroke=\"#d84315\" stroke-width=\"2.6\" stroke-linecap=\"round\"";
+/// The diagram of the first of two lists, and what is discarded of it.
+pub const FIRST: &str = "fill=\"none\" stroke=\"#1565c0\" stroke-width=\"2.2\" \
+                         stroke-dasharray=\"0.1 4.6\" stroke-linecap=\"round\"";
+pub const FIRST_LOST: &str = "fill=\"none\" stroke=\"#1565c0\" stroke-opacity=\"0.38\" \
+                              stroke-width=\"1.7\" stroke-dasharray=\"0.1 4.6\" \
+                              stroke-linecap=\"round\"";
+/// The diagram of the second of two lists, and what is discarded of it.
+pub const SECOND: &str = "fill=\"none\" stroke=\"#d84315\" stroke-width=\"1.7\" \
+                          stroke-dasharray=\"7 4\"";
+pub const SECOND_LOST: &str = "fill=\"none\" stroke=\"#d84315\" stroke-opacity=\"0.38\" \
+                               stroke-width=\"1.3\" stroke-dasharray=\"7 4\"";
+/// What lies on the other side of a list.
+pub const BEHIND: &str = "fill=\"none\" stroke=\"#607d8b\" stroke-width=\"1\"";

@@ -11,7 +11,8 @@ mod threads;
 mod watch;
 
 pub use divide_and_conquer::{
-    Work, divide_and_conquer, divide_and_conquer_counted, divide_and_conquer_with,
+    ArcEnd, Chain, ChainArc, ChainElement, ChainMerge, Work, chain_diagram, chain_merge,
+    divide_and_conquer, divide_and_conquer_counted, divide_and_conquer_with,
 };
 pub use error::EngineError;
 pub use exterior::{both_sides, exterior, exterior_frame, interior};

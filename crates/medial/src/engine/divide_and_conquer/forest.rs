@@ -49,8 +49,8 @@ pub(super) fn close_walk(
     touches::merge(members, diagram, walk, &rings, watch)
 }
 
-/// How many of the edges of a ring are merged before the last merge.
-fn first_part(len: usize) -> usize {
+/// How many of the edges of a chain, or of a ring, the first of the two parts has that are merged last.
+pub(super) fn first_part(len: usize) -> usize {
     len.next_power_of_two() / 2
 }
 

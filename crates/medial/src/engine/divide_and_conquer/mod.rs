@@ -71,6 +71,7 @@
 //!   made of one side and the corner. The cells that both chains have for the corner are passed over.
 
 mod around;
+mod chains;
 mod cut;
 mod diagram;
 mod disks;
@@ -88,6 +89,7 @@ mod touches;
 mod turned;
 mod work;
 
+pub use chains::{ArcEnd, Chain, ChainArc, ChainElement, ChainMerge, chain_diagram, chain_merge};
 pub use work::Work;
 
 use super::watch::Watch;
