@@ -60,12 +60,19 @@ impl Members<'_> {
     /// A corner of three elements, a side that ends there, and the third one.
     #[inline]
     fn normal_in(&self, &[a, b, c]: &[Member; 3]) -> Option<(Member, Member, Member)> {
-        let is_normal = |&(corner, side, _): &(Member, Member, Member)| {
-            corner.is_corner() && !side.is_corner() && self.ends_in(side, self.place(corner))
-        };
-        [(a, b, c), (a, c, b), (b, a, c), (b, c, a), (c, a, b), (c, b, a)]
-            .into_iter()
-            .find(is_normal)
+        let is_normal =
+            |corner: Member, side: Member| !side.is_corner() && self.ends_in(side, self.place(corner));
+        for [corner, other, third] in [[a, b, c], [b, a, c], [c, a, b]] {
+            if corner.is_corner() {
+                if is_normal(corner, other) {
+                    return Some((corner, other, third));
+                }
+                if is_normal(corner, third) {
+                    return Some((corner, third, other));
+                }
+            }
+        }
+        None
     }
 
     #[inline]
