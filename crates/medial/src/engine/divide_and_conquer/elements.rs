@@ -4,7 +4,7 @@ use super::exact::Exacts;
 use super::infinity::turn;
 use super::touches;
 use crate::domain::{Domain, Edge, Site};
-use crate::geom::predicates::Element;
+use crate::geom::predicates::{Element, Whole};
 use crate::geom::{Governor, Point};
 
 /// An element of a two-sided diagram.
@@ -61,6 +61,8 @@ pub(super) struct Members<'a> {
     lines: &'a [Line],
     /// Whether the boundary touches itself anywhere.
     pub touches: bool,
+    /// If all coordinates are whole numbers.
+    pub whole: Option<Whole>,
 }
 
 /// Where an edge starts and ends, and its unit direction.
@@ -84,7 +86,8 @@ impl Line {
 
 impl<'a> Members<'a> {
     pub fn new(domain: &'a Domain, lines: &'a [Line], exacts: &'a Exacts) -> Self {
-        Self { domain, exacts, lines, touches: touches::any(domain) }
+        let whole = Whole::all(domain.edges().iter().map(|edge| edge.start));
+        Self { domain, exacts, lines, touches: touches::any(domain), whole }
     }
 
     /// Whether one side goes straight on where another one ends, in either order.
