@@ -89,7 +89,6 @@ use super::watch::Watch;
 use super::{EngineError, Options};
 use crate::axis::MedialAxis;
 use crate::domain::Domain;
-use crate::geom::{BoundsTree, Rect};
 use diagram::Diagram;
 use elements::{Line, Members};
 use exact::Exacts;
@@ -148,10 +147,7 @@ fn run(domain: &Domain, options: &Options<'_>) -> Result<(MedialAxis, Work), Eng
     let members = Members::new(domain, &lines, &exacts);
     let mut diagram = Diagram::with_room(n);
     let has_holes = domain.walks().iter().any(|walk| walk.hole);
-    let tree = has_holes.then(|| {
-        BoundsTree::new(0, n, |k| Rect::EMPTY.with(domain.edge(k).start).with(domain.end(k)))
-    });
-    let mut merged = tree.as_ref().map(|tree| Merged::new(members, tree));
+    let mut merged = has_holes.then(|| Merged::new(members));
     for k in order::of_walks(domain) {
         let walk = &domain.walks()[k as usize];
         let rings = touches::simple_rings(members, walk);
