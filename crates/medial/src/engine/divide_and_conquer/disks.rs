@@ -322,15 +322,28 @@ impl Members<'_> {
     /// Orders the way from a corner to the centre of one disk against that to the centre of another one,
     /// counterclockwise, by less than a quarter of a turn; `None` where doubles do not tell.
     pub fn turn(&self, corner: Member, from: &Disk, to: &Disk) -> Option<Ordering> {
+        let ([from, to], doubt) = self.ways(corner, [from, to]);
+        sign(from.dot(to), doubt).filter(|towards| towards.is_gt())?;
+        sign(from.cross(to), doubt)
+    }
+
+    /// The same for disks that touch a reflex corner in its zone, which is less than half a turn.
+    pub fn turn_in_zone(&self, corner: Member, from: &Disk, to: &Disk) -> Option<Ordering> {
+        let ([from, to], doubt) = self.ways(corner, [from, to]);
+        sign(from.cross(to), doubt)
+    }
+
+    /// The ways from a corner to the centres of two disks, and a bound on the error of their products.
+    #[inline]
+    fn ways(&self, corner: Member, disks: [&Disk; 2]) -> ([Point; 2], f64) {
         let place = self.place(corner);
-        let [(from, from_doubt), (to, to_doubt)] = [from, to].map(|d| self.way(&d.disk, place));
+        let [(from, from_doubt), (to, to_doubt)] = disks.map(|d| self.way(&d.disk, place));
         let (from_length, to_length) = (from.norm(), to.norm());
         let doubt = from_length * to_doubt
             + to_length * from_doubt
             + from_doubt * to_doubt
             + 8.0 * U * from_length * to_length;
-        sign(from.dot(to), doubt).filter(|towards| towards.is_gt())?;
-        sign(from.cross(to), doubt)
+        ([from, to], doubt)
     }
 
     /// Whether two disks are the same by their elements: in one cyclic order, or in any if a corner and an

@@ -118,7 +118,7 @@ impl Merge<'_, '_> {
 
     /// Whether the spoke to a vertex around the cell to one hand certainly lies beyond that to a disk
     /// ahead.
-    pub(super) fn is_onwards(&self, curve: &Curve, hand: Hand, disk: &Disk, vertex: &Disk) -> bool {
+    fn is_onwards(&self, curve: &Curve, hand: Hand, disk: &Disk, vertex: &Disk) -> bool {
         let (cell, onwards) = match hand {
             Hand::Left => (curve.left, Some(Ordering::Greater)),
             Hand::Right => (curve.right, Some(Ordering::Less)),
