@@ -95,15 +95,15 @@ impl Merge<'_, '_> {
     pub(super) fn look_both(&self, curve: &mut Curve) -> (Ahead, Ahead) {
         match curve.entered {
             Hand::Left => {
-                let left = self.look(curve, Hand::Left);
+                let left = self.look_left(curve);
                 let is_first = self.is_before_lost(curve, Hand::Right, &left);
-                let right = if is_first { Ahead::Nothing } else { self.look(curve, Hand::Right) };
+                let right = if is_first { Ahead::Nothing } else { self.look_right(curve) };
                 (left, right)
             }
             Hand::Right => {
-                let right = self.look(curve, Hand::Right);
+                let right = self.look_right(curve);
                 let is_first = self.is_before_lost(curve, Hand::Left, &right);
-                let left = if is_first { Ahead::Nothing } else { self.look(curve, Hand::Left) };
+                let left = if is_first { Ahead::Nothing } else { self.look_left(curve) };
                 (left, right)
             }
         }
@@ -130,7 +130,18 @@ impl Merge<'_, '_> {
         turn(disk, vertex) && (!cell.is_corner() || is_near())
     }
 
-    /// What the cell to one hand has ahead.
+    #[inline(never)]
+    fn look_left(&self, curve: &mut Curve) -> Ahead {
+        self.look(curve, Hand::Left)
+    }
+
+    #[inline(never)]
+    fn look_right(&self, curve: &mut Curve) -> Ahead {
+        self.look(curve, Hand::Right)
+    }
+
+    /// What the cell to one hand has ahead; compiled for either.
+    #[inline(always)]
     fn look(&self, curve: &mut Curve, hand: Hand) -> Ahead {
         let (cell, other) = match hand {
             Hand::Left => (curve.left, curve.right),
@@ -220,12 +231,12 @@ impl Merge<'_, '_> {
                     }
                 }
             }
-            let disk = self
-                .members
-                .disk([curve.right, beyond, curve.left])
-                .filter(|disk| self.members.in_zone(disk, beyond) && is_ahead(disk));
-            return disk
-                .map_or(Ahead::Nothing, |disk| Ahead::Arc(self.members.sharp(disk), None, half));
+            let triple = [curve.right, beyond, curve.left];
+            let Some(disk) = self.members.disk(triple) else { return Ahead::Nothing };
+            if !self.members.in_zone(&disk, beyond) || !is_ahead(&disk) {
+                return Ahead::Nothing;
+            }
+            return Ahead::Arc(self.members.sharp(disk), None, half);
         }
     }
 
