@@ -60,8 +60,9 @@ impl Members<'_> {
     /// A corner of three elements, a side that ends there, and the third one.
     #[inline]
     fn normal_in(&self, &[a, b, c]: &[Member; 3]) -> Option<(Member, Member, Member)> {
-        let is_normal =
-            |corner: Member, side: Member| !side.is_corner() && self.ends_in(side, self.place(corner));
+        let is_normal = |corner: Member, side: Member| {
+            !side.is_corner() && self.ends_in(side, self.place(corner))
+        };
         for [corner, other, third] in [[a, b, c], [b, a, c], [c, a, b]] {
             if corner.is_corner() {
                 if is_normal(corner, other) {

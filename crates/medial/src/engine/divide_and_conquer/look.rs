@@ -79,12 +79,7 @@ impl Merge<'_, '_> {
     }
 
     #[inline]
-    fn is_after(
-        &self,
-        start: Option<&Disk>,
-        disk: &Disk,
-        (right, left): (Member, Member),
-    ) -> bool {
+    fn is_after(&self, start: Option<&Disk>, disk: &Disk, (right, left): (Member, Member)) -> bool {
         start.is_none_or(|start| self.members.order(disk, start, right, left).is_gt())
     }
 

@@ -61,8 +61,7 @@ fn places(domain: &Domain, boxes: &[Rect]) -> Vec<u64> {
 /// All walks, near ones close to each other, in whichever order holes are given: so boxes of some that
 /// follow one another are small.
 pub(super) fn along_curve(domain: &Domain) -> Vec<u32> {
-    let mut walks: Vec<(u64, u32)> =
-        places(domain, &boxes(domain)).into_iter().zip(0..).collect();
+    let mut walks: Vec<(u64, u32)> = places(domain, &boxes(domain)).into_iter().zip(0..).collect();
     walks.sort_unstable();
     walks.into_iter().map(|(_, walk)| walk).collect()
 }
@@ -72,8 +71,7 @@ pub(super) fn of_walks(domain: &Domain) -> Vec<u32> {
     let walks = domain.walks();
     let boxes = boxes(domain);
     let places = places(domain, &boxes);
-    let mut holes: Vec<u32> =
-        (0..walks.len() as u32).filter(|&k| walks[k as usize].hole).collect();
+    let mut holes: Vec<u32> = (0..walks.len() as u32).filter(|&k| walks[k as usize].hole).collect();
     holes.sort_unstable_by_key(|&k| (places[k as usize], k));
     let tree = BoundsTree::new(0, holes.len() as u32, |k| boxes[holes[k as usize] as usize]);
     let mut order: Vec<(u32, Place, u32)> = Vec::with_capacity(walks.len());

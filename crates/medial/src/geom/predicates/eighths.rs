@@ -52,11 +52,7 @@ impl Eighths {
     /// The disk touching three elements that is known in doubles, if it is such a disk; its origin is one
     /// of the points.
     #[inline]
-    pub(crate) fn new(
-        whole: Whole,
-        [a, b, c]: [Element; 3],
-        disk: &TouchingDisk,
-    ) -> Option<Self> {
+    pub(crate) fn new(whole: Whole, [a, b, c]: [Element; 3], disk: &TouchingDisk) -> Option<Self> {
         const EIGHTH: f64 = 1.0 / (1_u32 << DIGITS) as f64;
         let TouchingDisk { origin, centre, radius, bound } = *disk;
         // Thus at most one such centre is within the bound.
