@@ -99,24 +99,25 @@ impl Merge<'_, '_> {
 
     /// Asks a cell for arcs within reach, from the last one asked on; whether an earlier one was found.
     fn scan(&self, curve: &Curve, scan: &mut Scan, reach: Reach<'_>) -> bool {
+        let hand = scan.hand;
         let (right, left) = (curve.right, curve.left);
         let is_vertex = |vertex: u32| vertex < INFINITE;
         let mut found = false;
         while scan.half != NONE {
             if let Reach::UpTo(disk) = reach
                 && is_vertex(scan.last)
-                && self.is_onwards(curve, scan.hand, disk, self.vertex(scan.last))
+                && self.is_beyond(scan.cell, hand, disk, self.vertex(scan.last))
             {
                 break;
             }
             let half = scan.half;
             self.diagram.count_arc();
-            let far = self.far(half, scan.hand);
+            let far = self.far(half, hand);
             let vertex = is_vertex(far).then(|| self.vertex(far));
-            scan.half = self.step(half, scan.hand);
+            scan.half = self.step(half, hand);
             scan.passing = scan.passing
                 && vertex.zip(curve.start.as_ref()).is_some_and(|(vertex, start)| {
-                    self.place_around(scan.cell, scan.hand, vertex, start) == Some(Ordering::Less)
+                    self.place_around(scan.cell, hand, vertex, start) == Some(Ordering::Less)
                 });
             scan.last = far;
             if scan.passing {
@@ -139,7 +140,7 @@ impl Merge<'_, '_> {
             let at_end = vertex.filter(|vertex| meets.is_eq() && self.is_ahead(curve, vertex));
             let met = match at_end {
                 Some(vertex) => Some((*vertex, Some(far), half)),
-                None => self.crossing(curve, half).map(|disk| (disk, None, half)),
+                None => self.crossing(curve, half, scan.other).map(|disk| (disk, None, half)),
             };
             if let Some(met) = met
                 && scan
@@ -171,11 +172,14 @@ impl Merge<'_, '_> {
     }
 
     /// The disk where the curve crosses an arc, ahead.
-    fn crossing(&self, curve: &Curve, half: u32) -> Option<Disk> {
+    fn crossing(&self, curve: &Curve, half: u32, other: Member) -> Option<Disk> {
         let disk = self.members.disk([curve.right, self.diagram.beyond(half), curve.left])?;
-        let is_there = self.is_ahead(curve, &disk)
-            && self.is_on(half, &disk)
-            && disk.triple.iter().all(|&member| self.members.in_zone_of_ring(&disk, member));
+        // An arc lies in the zones of its own two elements.
+        let in_zone = || {
+            let zones = if self.members.touches { &disk.triple[..] } else { &[other] };
+            zones.iter().all(|&member| self.members.in_zone_of_ring(&disk, member))
+        };
+        let is_there = self.is_ahead(curve, &disk) && self.is_on(half, &disk) && in_zone();
         is_there.then(|| self.members.sharp(disk))
     }
 
@@ -189,6 +193,16 @@ impl Merge<'_, '_> {
         (!is_vertex(from) || order(from).is_ge()) && (!is_vertex(to) || order(to).is_le())
     }
 
+    /// Whether the spoke to a vertex around a cell certainly lies beyond that to a disk on the curve.
+    fn is_beyond(&self, cell: Member, hand: Hand, disk: &Disk, vertex: &Disk) -> bool {
+        let order = if cell.is_corner() {
+            self.members.turn_in_zone(cell, disk, vertex)
+        } else {
+            self.members.turn_around(cell, disk, vertex)
+        };
+        order == Some(if hand == Hand::Left { Ordering::Greater } else { Ordering::Less })
+    }
+
     /// Orders the spokes from an element to a vertex around its cell and to a disk on the curve, in the
     /// direction of the curve; `None` where it is not certain.
     fn place_around(
@@ -199,7 +213,7 @@ impl Merge<'_, '_> {
         disk: &Disk,
     ) -> Option<Ordering> {
         let order = if cell.is_corner() {
-            self.members.turn(cell, disk, vertex)?
+            self.members.turn_in_zone(cell, disk, vertex)?
         } else {
             // Counterclockwise around the cell is against the direction of the edge.
             self.members.compare_along(disk, vertex, cell)

@@ -10,7 +10,7 @@ use std::rc::Rc;
 
 use super::elements::{Flank, Member, Members};
 use super::infinity::turn;
-use crate::geom::predicates::{Element, ExactDisk, sign};
+use crate::geom::predicates::{Eighths, Element, ExactDisk, sign};
 use crate::geom::{Point, TouchingDisk, U, Unsure};
 
 /// Error of a disk, as a share of its radius, above which it is made sharper before more is asked.
@@ -60,12 +60,20 @@ impl Members<'_> {
     /// A corner of three elements, a side that ends there, and the third one.
     #[inline]
     fn normal_in(&self, &[a, b, c]: &[Member; 3]) -> Option<(Member, Member, Member)> {
-        let is_normal = |&(corner, side, _): &(Member, Member, Member)| {
-            corner.is_corner() && !side.is_corner() && self.ends_in(side, self.place(corner))
+        let is_normal = |corner: Member, side: Member| {
+            !side.is_corner() && self.ends_in(side, self.place(corner))
         };
-        [(a, b, c), (a, c, b), (b, a, c), (b, c, a), (c, a, b), (c, b, a)]
-            .into_iter()
-            .find(is_normal)
+        for [corner, other, third] in [[a, b, c], [b, a, c], [c, a, b]] {
+            if corner.is_corner() {
+                if is_normal(corner, other) {
+                    return Some((corner, other, third));
+                }
+                if is_normal(corner, third) {
+                    return Some((corner, third, other));
+                }
+            }
+        }
+        None
     }
 
     #[inline]
@@ -118,6 +126,11 @@ impl Members<'_> {
         })
     }
 
+    /// The same disk in eighths of whole numbers, if it is one of these: most ties are.
+    fn in_eighths(&self, disk: &Disk) -> Option<Eighths> {
+        Eighths::new(self.whole?, disk.triple.map(|m| self.element(m)), &disk.disk)
+    }
+
     /// The way from a corner to the centre, and a bound on the error of its products with unit vectors
     /// and of its length less the radius.
     #[inline]
@@ -147,7 +160,10 @@ impl Members<'_> {
             return Ordering::Equal;
         }
         let (a, b) = self.ends(side);
-        self.exact(disk).along(a, b, end)
+        match self.in_eighths(disk) {
+            Some(disk) => disk.along(a, b, end),
+            None => self.exact(disk).along(a, b, end),
+        }
     }
 
     /// Whether a disk that touches the line of a side does so within its ends, which count.
@@ -212,18 +228,23 @@ impl Members<'_> {
 
     #[cold]
     fn side_of(&self, disk: &Disk, corner: Point) -> Ordering {
-        self.exact(disk).side(Element::Corner(corner))
+        match self.in_eighths(disk) {
+            Some(disk) => disk.side(corner),
+            None => self.exact(disk).side(Element::Corner(corner)),
+        }
     }
 
     #[cold]
     fn side_of_edge(&self, disk: &Disk, (a, b): (Point, Point)) -> Ordering {
-        let exact = self.exact(disk);
-        if exact.front(a, b).is_lt() {
-            // From behind: the other side of the edge may be touched, not this one.
-            let behind = exact.side(Element::Edge(b, a));
-            return if behind.is_eq() { Ordering::Greater } else { behind };
-        }
-        exact.side(Element::Edge(a, b))
+        let (front, side) =
+            self.in_eighths(disk).and_then(|disk| disk.side_of_edge(a, b)).unwrap_or_else(|| {
+                let exact = self.exact(disk);
+                let front = exact.front(a, b);
+                let (from, to) = if front.is_lt() { (b, a) } else { (a, b) };
+                (front, exact.side(Element::Edge(from, to)))
+            });
+        // From behind the other side of the edge may be touched, not this one.
+        if front.is_lt() && side.is_eq() { Ordering::Greater } else { side }
     }
 
     /// Orders the centres of two disks along a direction, or across it, to the left.
@@ -248,6 +269,14 @@ impl Members<'_> {
         (a, b): (Point, Point),
         across: bool,
     ) -> Ordering {
+        if d.triple == e.triple {
+            return Ordering::Equal;
+        }
+        if let Some(d) = self.in_eighths(d)
+            && let Some(e) = self.in_eighths(e)
+        {
+            return d.compare(&e, (a, b), across);
+        }
         if self.is_same(d, e) {
             return Ordering::Equal;
         }
@@ -294,23 +323,33 @@ impl Members<'_> {
     /// Orders the way from a corner to the centre of one disk against that to the centre of another one,
     /// counterclockwise, by less than a quarter of a turn; `None` where doubles do not tell.
     pub fn turn(&self, corner: Member, from: &Disk, to: &Disk) -> Option<Ordering> {
+        let ([from, to], doubt) = self.ways(corner, [from, to]);
+        sign(from.dot(to), doubt).filter(|towards| towards.is_gt())?;
+        sign(from.cross(to), doubt)
+    }
+
+    /// The same for disks that touch a reflex corner in its zone, which is less than half a turn.
+    pub fn turn_in_zone(&self, corner: Member, from: &Disk, to: &Disk) -> Option<Ordering> {
+        let ([from, to], doubt) = self.ways(corner, [from, to]);
+        sign(from.cross(to), doubt)
+    }
+
+    /// The ways from a corner to the centres of two disks, and a bound on the error of their products.
+    #[inline]
+    fn ways(&self, corner: Member, disks: [&Disk; 2]) -> ([Point; 2], f64) {
         let place = self.place(corner);
-        let [(from, from_doubt), (to, to_doubt)] = [from, to].map(|d| self.way(&d.disk, place));
+        let [(from, from_doubt), (to, to_doubt)] = disks.map(|d| self.way(&d.disk, place));
         let (from_length, to_length) = (from.norm(), to.norm());
         let doubt = from_length * to_doubt
             + to_length * from_doubt
             + from_doubt * to_doubt
             + 8.0 * U * from_length * to_length;
-        sign(from.dot(to), doubt).filter(|towards| towards.is_gt())?;
-        sign(from.cross(to), doubt)
+        ([from, to], doubt)
     }
 
     /// Whether two disks are the same by their elements: in one cyclic order, or in any if a corner and an
     /// edge that ends in it are touched in one place.
     fn is_same(&self, a: &Disk, b: &Disk) -> bool {
-        if a.triple == b.triple {
-            return true;
-        }
         // A corner in which two chains meet has two numbers.
         let [d, [x, y, z]] = [a, b].map(|disk| disk.triple.map(|m| self.element(m)));
         let [p, q, s] = a.triple;

@@ -5,7 +5,7 @@ use super::infinity::turn;
 use super::touches;
 use crate::domain::{Domain, Edge, Site};
 use crate::engine::EngineError;
-use crate::geom::predicates::Element;
+use crate::geom::predicates::{Element, Whole};
 use crate::geom::{Governor, Point};
 
 /// An element of a two-sided diagram.
@@ -60,6 +60,8 @@ pub(super) struct Ground<'a> {
     lines: &'a [Line],
     /// Whether the boundary touches itself anywhere.
     pub touches: bool,
+    /// If all coordinates are whole numbers.
+    whole: Option<Whole>,
 }
 
 impl<'a> Ground<'a> {
@@ -69,7 +71,8 @@ impl<'a> Ground<'a> {
         // Four elements an edge, and some arcs for each.
         let n_edges = domain.edges().len();
         if u32::try_from(n_edges).is_ok_and(|n| n < u32::MAX / 64) {
-            Ok(Self { domain, lines, touches: touches::any(domain) })
+            let whole = Whole::all(domain.edges().iter().map(|edge| edge.start));
+            Ok(Self { domain, lines, touches: touches::any(domain), whole })
         } else {
             Err(EngineError::TooLarge { n_edges })
         }
@@ -80,8 +83,8 @@ impl<'a> Ground<'a> {
     where
         'a: 'e,
     {
-        let Self { domain, lines, touches } = *self;
-        Members { domain, exacts, lines, touches }
+        let Self { domain, lines, touches, whole } = *self;
+        Members { domain, exacts, lines, touches, whole }
     }
 }
 
@@ -94,6 +97,8 @@ pub(super) struct Members<'a> {
     lines: &'a [Line],
     /// Whether the boundary touches itself anywhere.
     pub touches: bool,
+    /// If all coordinates are whole numbers.
+    pub whole: Option<Whole>,
 }
 
 /// Where an edge starts and ends, and its unit direction.

@@ -25,6 +25,7 @@ pub(super) fn turn(a: Point, b: Point, c: Point) -> Ordering {
 impl Merge<'_, '_> {
     /// Two points on the line that an unbounded arc is perpendicular to, so that its far end lies to the
     /// left of it: the two corners between which it runs, or the ends of the edge whose normal it is.
+    #[inline]
     fn base(&self, half: u32, hand: Hand) -> (Point, Point) {
         let (cell, beyond) = (self.diagram.half(half).cell, self.diagram.beyond(half));
         // Outwards with `left` to the left.
@@ -70,7 +71,8 @@ impl Merge<'_, '_> {
         let place = self.members.ends(self.diagram.half(gap.half).cell).0;
         let (u, v) = self.members.ends(by);
         // Each end of the element may make the other one count.
-        for p in [u, v, u] {
+        let points = if by.is_corner() { &[u][..] } else { &[u, v, u] };
+        for &p in points {
             let counts = match gap.reached {
                 None => beyond(self.base(gap.half, hand), p),
                 Some(reached) => {

@@ -75,10 +75,12 @@ impl Merge<'_, '_> {
 
     /// Whether a disk lies ahead of the start of the present piece.
     pub(super) fn is_ahead(&self, curve: &Curve, disk: &Disk) -> bool {
-        curve
-            .start
-            .as_ref()
-            .is_none_or(|start| self.members.order(disk, start, curve.right, curve.left).is_gt())
+        self.is_after(curve.start.as_ref(), disk, (curve.right, curve.left))
+    }
+
+    #[inline]
+    fn is_after(&self, start: Option<&Disk>, disk: &Disk, (right, left): (Member, Member)) -> bool {
+        start.is_none_or(|start| self.members.order(disk, start, right, left).is_gt())
     }
 
     /// What both cells have ahead, left and right, as far as it comes into question.
@@ -88,15 +90,15 @@ impl Merge<'_, '_> {
     pub(super) fn look_both(&self, curve: &mut Curve) -> (Ahead, Ahead) {
         match curve.entered {
             Hand::Left => {
-                let left = self.look(curve, Hand::Left);
+                let left = self.look_left(curve);
                 let is_first = self.is_before_lost(curve, Hand::Right, &left);
-                let right = if is_first { Ahead::Nothing } else { self.look(curve, Hand::Right) };
+                let right = if is_first { Ahead::Nothing } else { self.look_right(curve) };
                 (left, right)
             }
             Hand::Right => {
-                let right = self.look(curve, Hand::Right);
+                let right = self.look_right(curve);
                 let is_first = self.is_before_lost(curve, Hand::Left, &right);
-                let left = if is_first { Ahead::Nothing } else { self.look(curve, Hand::Left) };
+                let left = if is_first { Ahead::Nothing } else { self.look_left(curve) };
                 (left, right)
             }
         }
@@ -111,7 +113,7 @@ impl Merge<'_, '_> {
 
     /// Whether the spoke to a vertex around the cell to one hand certainly lies beyond that to a disk
     /// ahead.
-    pub(super) fn is_onwards(&self, curve: &Curve, hand: Hand, disk: &Disk, vertex: &Disk) -> bool {
+    fn is_onwards(&self, curve: &Curve, hand: Hand, disk: &Disk, vertex: &Disk) -> bool {
         let (cell, onwards) = match hand {
             Hand::Left => (curve.left, Some(Ordering::Greater)),
             Hand::Right => (curve.right, Some(Ordering::Less)),
@@ -123,26 +125,39 @@ impl Merge<'_, '_> {
         turn(disk, vertex) && (!cell.is_corner() || is_near())
     }
 
-    /// What the cell to one hand has ahead.
+    #[inline(never)]
+    fn look_left(&self, curve: &mut Curve) -> Ahead {
+        self.look(curve, Hand::Left)
+    }
+
+    #[inline(never)]
+    fn look_right(&self, curve: &mut Curve) -> Ahead {
+        self.look(curve, Hand::Right)
+    }
+
+    /// What the cell to one hand has ahead; compiled for either.
+    #[inline(always)]
     fn look(&self, curve: &mut Curve, hand: Hand) -> Ahead {
         let (cell, other) = match hand {
             Hand::Left => (curve.left, curve.right),
             Hand::Right => (curve.right, curve.left),
         };
-        let (mut cursor, mut gap, mut lost) = match hand {
-            Hand::Left => (curve.left_cursor, curve.left_gap, curve.left_lost),
-            Hand::Right => (curve.right_cursor, curve.right_gap, curve.right_lost),
+        let start = &curve.start;
+        let is_ahead = |disk: &Disk| self.is_after(start.as_ref(), disk, (curve.right, curve.left));
+        let (cursor, gap, lost) = match hand {
+            Hand::Left => (&mut curve.left_cursor, &mut curve.left_gap, &mut curve.left_lost),
+            Hand::Right => (&mut curve.right_cursor, &mut curve.right_gap, &mut curve.right_lost),
         };
-        let ahead = loop {
-            if let Some(gap) = &mut gap
-                && !self.is_gap_beaten(gap, cursor, hand, other)
-            {
-                break Ahead::Infinity(cursor);
+        loop {
+            if let Some(open) = gap {
+                if !self.is_gap_beaten(open, *cursor, hand, other) {
+                    return Ahead::Infinity(*cursor);
+                }
+                *gap = None;
             }
-            gap = None;
-            let half = cursor;
+            let half = *cursor;
             if half == NONE {
-                break Ahead::Element;
+                return Ahead::Element;
             }
             self.diagram.count_arc();
             let (beyond, far) = (self.diagram.beyond(half), self.far(half, hand));
@@ -151,16 +166,16 @@ impl Merge<'_, '_> {
                 let mut joints = self.joints.iter().filter(|joint| joint.drops(beyond));
                 let along = joints.any(|joint| joint.is_along(cell, other));
                 match far {
-                    APEX => break Ahead::Element,
+                    APEX => return Ahead::Element,
                     INFINITE => {
                         if !along && !self.is_beaten(half, hand, other) {
-                            break Ahead::Nothing;
+                            return Ahead::Nothing;
                         }
                         let after = self.step(half, hand);
                         if along {
-                            break Ahead::Infinity(after);
+                            return Ahead::Infinity(after);
                         }
-                        (cursor, gap) = (after, Some(Gap { half, reached: None }));
+                        (*cursor, *gap) = (after, Some(Gap { half, reached: None }));
                         continue;
                     }
                     _ => {}
@@ -170,25 +185,25 @@ impl Merge<'_, '_> {
                 let meets = if along { Ordering::Equal } else { self.members.meets(vertex, other) };
                 match meets {
                     Ordering::Less => {}
-                    Ordering::Equal if self.is_ahead(curve, vertex) => {
-                        break Ahead::Rim(*vertex, far);
+                    Ordering::Equal if is_ahead(vertex) => {
+                        return Ahead::Rim(*vertex, far);
                     }
                     Ordering::Equal if along => {}
-                    _ => break Ahead::Nothing,
+                    _ => return Ahead::Nothing,
                 }
-                cursor = self.step(half, hand);
+                *cursor = self.step(half, hand);
                 continue;
             }
             match far {
                 APEX => {
                     if self.is_lost_in_a_joint(cell, beyond, hand) {
-                        break Ahead::Element;
+                        return Ahead::Element;
                     }
                 }
                 INFINITE => {
                     if self.is_beaten(half, hand, other) {
-                        cursor = self.step(half, hand);
-                        gap = Some(Gap { half, reached: None });
+                        *cursor = self.step(half, hand);
+                        *gap = Some(Gap { half, reached: None });
                         continue;
                     }
                 }
@@ -196,37 +211,28 @@ impl Merge<'_, '_> {
                     let vertex = self.vertex(far);
                     match self.members.meets(vertex, other) {
                         Ordering::Less => {
-                            lost = far;
-                            cursor = self.step(half, hand);
+                            *lost = far;
+                            *cursor = self.step(half, hand);
                             continue;
                         }
                         Ordering::Equal => {
-                            if self.is_ahead(curve, vertex) {
-                                break Ahead::Arc(*vertex, Some(far), half);
+                            if is_ahead(vertex) {
+                                return Ahead::Arc(*vertex, Some(far), half);
                             }
-                            cursor = self.step(half, hand);
+                            *cursor = self.step(half, hand);
                             continue;
                         }
                         Ordering::Greater => {}
                     }
                 }
             }
-            let disk = self
-                .members
-                .disk([curve.right, beyond, curve.left])
-                .filter(|disk| self.members.in_zone(disk, beyond) && self.is_ahead(curve, disk));
-            break disk
-                .map_or(Ahead::Nothing, |disk| Ahead::Arc(self.members.sharp(disk), None, half));
-        };
-        match hand {
-            Hand::Left => {
-                (curve.left_cursor, curve.left_gap, curve.left_lost) = (cursor, gap, lost);
+            let triple = [curve.right, beyond, curve.left];
+            let Some(disk) = self.members.disk(triple) else { return Ahead::Nothing };
+            if !self.members.in_zone(&disk, beyond) || !is_ahead(&disk) {
+                return Ahead::Nothing;
             }
-            Hand::Right => {
-                (curve.right_cursor, curve.right_gap, curve.right_lost) = (cursor, gap, lost);
-            }
+            return Ahead::Arc(self.members.sharp(disk), None, half);
         }
-        ahead
     }
 
     /// Whether the arc by which the list of a cell ends in a corner is lost there.

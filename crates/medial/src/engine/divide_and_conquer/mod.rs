@@ -96,7 +96,7 @@ use super::watch::Watch;
 use super::{EngineError, Options, threads};
 use crate::axis::MedialAxis;
 use crate::domain::{Complement, Domain};
-use crate::geom::{BoundsTree, Point, Rect};
+use crate::geom::Point;
 use diagram::Diagram;
 use elements::{Ground, Line};
 use exact::Exacts;
@@ -199,12 +199,7 @@ fn finish(
     let exacts = Exacts::new();
     let members = ground.members(&exacts);
     let has_holes = domain.walks().iter().any(|walk| walk.hole);
-    let tree = has_holes.then(|| {
-        BoundsTree::new(0, domain.edges().len() as u32, |k| {
-            Rect::EMPTY.with(domain.edge(k).start).with(domain.end(k))
-        })
-    });
-    let mut merged = tree.as_ref().map(|tree| Merged::new(members, tree));
+    let mut merged = has_holes.then(|| Merged::new(members));
     for k in order::of_walks(domain) {
         let walk = &domain.walks()[k as usize];
         if (k as usize) < first_made {

@@ -41,16 +41,39 @@ impl Visitor for Inside<'_> {
     }
 }
 
+/// The boxes of all walks.
+fn boxes(domain: &Domain) -> Vec<Rect> {
+    let start = |edge| domain.edge(edge).start;
+    let walks = domain.walks().iter();
+    walks.map(|walk| walk.edges().map(start).fold(Rect::EMPTY, Rect::with)).collect()
+}
+
+/// Where the middles of the boxes of walks lie along a curve over all holes, which brings near what is
+/// near.
+fn places(domain: &Domain, boxes: &[Rect]) -> Vec<u64> {
+    let walks = domain.walks().iter().zip(boxes);
+    let holes = walks.filter(|(walk, _)| walk.hole);
+    let all = holes.fold(Rect::EMPTY, |all, (_, own)| all.union(*own));
+    let middle = |own: &Rect| own.min + (own.max - own.min) * 0.5;
+    boxes.iter().map(|own| hilbert(&all, middle(own))).collect()
+}
+
+/// All walks, near ones close to each other, in whichever order holes are given: so boxes of some that
+/// follow one another are small.
+pub(super) fn along_curve(domain: &Domain) -> Vec<u32> {
+    let mut walks: Vec<(u64, u32)> = places(domain, &boxes(domain)).into_iter().zip(0..).collect();
+    walks.sort_unstable();
+    walks.into_iter().map(|(_, walk)| walk).collect()
+}
+
 /// The walks in the order in which they are merged: component by component, the outer ring of each first.
 pub(super) fn of_walks(domain: &Domain) -> Vec<u32> {
     let walks = domain.walks();
-    let boxes: Vec<Rect> = walks
-        .iter()
-        .map(|walk| walk.edges().map(|edge| domain.edge(edge).start).fold(Rect::EMPTY, Rect::with))
-        .collect();
-    let holes: Vec<u32> = (0..walks.len() as u32).filter(|&k| walks[k as usize].hole).collect();
+    let boxes = boxes(domain);
+    let places = places(domain, &boxes);
+    let mut holes: Vec<u32> = (0..walks.len() as u32).filter(|&k| walks[k as usize].hole).collect();
+    holes.sort_unstable_by_key(|&k| (places[k as usize], k));
     let tree = BoundsTree::new(0, holes.len() as u32, |k| boxes[holes[k as usize] as usize]);
-    let all = tree.bounds();
     let mut order: Vec<(u32, Place, u32)> = Vec::with_capacity(walks.len());
     for (k, (walk, own)) in (0..).zip(walks.iter().zip(&boxes)) {
         let place = if walk.hole {
@@ -60,8 +83,7 @@ pub(super) fn of_walks(domain: &Domain) -> Vec<u32> {
                 // Positive numbers are in the order of their bits.
                 Place::Around(Reverse((own.max.x - own.min.x).to_bits()), order_key(own.min.x))
             } else {
-                let middle = own.min + (own.max - own.min) * 0.5;
-                Place::Alone(Reverse(round(k)), hilbert(&all, middle))
+                Place::Alone(Reverse(round(k)), places[k as usize])
             }
         } else {
             Place::Outer

@@ -7,6 +7,7 @@ use super::diagram::{APEX, Diagram, NONE};
 use super::disks::Disk;
 use super::elements::{Flank, Member, Members};
 use super::merge::Crossing;
+use super::order;
 use crate::axis::{self, Curve};
 use crate::domain::{Corner, Site, Walk};
 use crate::engine::EngineError;
@@ -25,10 +26,22 @@ const FARTHEST: f64 = 4.0;
 /// Rounds of growing or shrinking disks, at most.
 const MOST_ROUNDS: usize = 4096;
 
+/// Edges in a piece of a walk, at most.
+const PIECE: u32 = 8;
+
+/// A few edges of a walk that follow one another.
+struct Piece {
+    bounds: Rect,
+    walk: u32,
+    edges: Range<u32>,
+}
+
 /// The rings of a domain that are merged already.
 pub(super) struct Merged<'a> {
     members: Members<'a>,
-    tree: &'a BoundsTree,
+    /// All edges, in pieces, and the boxes of these.
+    pieces: Vec<Piece>,
+    tree: BoundsTree,
     /// Whether each walk is.
     walks: Vec<bool>,
     /// The component of the last one: what another one has is never seen from this one.
@@ -50,12 +63,16 @@ impl Visitor for Near<'_> {
         bounds.distance2(self.centre) <= self.reach * self.reach
     }
 
-    fn item(&mut self, edge: u32) {
-        let record = self.merged.members.domain.edge(edge);
-        if self.merged.has(record.walk)
-            && record.distance2(self.centre - record.start) <= self.reach * self.reach
-        {
-            self.edges.push(edge);
+    fn item(&mut self, item: u32) {
+        let Piece { bounds, walk, edges } = &self.merged.pieces[item as usize];
+        if !self.enters(bounds, 0..0) || !self.merged.has(*walk) {
+            return;
+        }
+        for edge in edges.clone() {
+            let record = self.merged.members.domain.edge(edge);
+            if record.distance2(self.centre - record.start) <= self.reach * self.reach {
+                self.edges.push(edge);
+            }
         }
     }
 }
@@ -72,12 +89,14 @@ impl Visitor for Found<'_> {
         !self.found && self.near.enters(bounds, range)
     }
 
-    fn item(&mut self, edge: u32) {
+    fn item(&mut self, item: u32) {
         if self.found {
             return;
         }
-        self.near.item(edge);
-        if let Some(edge) = self.near.edges.pop() {
+        self.near.item(item);
+        while !self.found
+            && let Some(edge) = self.near.edges.pop()
+        {
             let looked = &self.near.merged.looked;
             looked.set(looked.get() + 1);
             self.found = (self.cuts)(edge);
@@ -86,9 +105,21 @@ impl Visitor for Found<'_> {
 }
 
 impl<'a> Merged<'a> {
-    pub fn new(members: Members<'a>, tree: &'a BoundsTree) -> Self {
-        let walks = vec![false; members.domain.walks().len()];
-        Self { members, tree, walks, component: 0, looked: Cell::new(0) }
+    pub fn new(members: Members<'a>) -> Self {
+        let domain = members.domain;
+        let mut pieces = Vec::new();
+        for walk in order::along_curve(domain) {
+            let all = domain.walks()[walk as usize].edges();
+            for first in all.clone().step_by(PIECE as usize) {
+                let edges = first..(first + PIECE).min(all.end);
+                let ends = edges.clone().map(|edge| domain.edge(edge).start);
+                let bounds = ends.fold(Rect::EMPTY, Rect::with).with(domain.end(edges.end - 1));
+                pieces.push(Piece { bounds, walk, edges });
+            }
+        }
+        let tree = BoundsTree::new(0, pieces.len() as u32, |k| pieces[k as usize].bounds);
+        let walks = vec![false; domain.walks().len()];
+        Self { members, pieces, tree, walks, component: 0, looked: Cell::new(0) }
     }
 
     /// Notes that a walk is merged.

@@ -16,10 +16,13 @@ use super::diagram::{Diagram, NONE};
 use super::elements::{Member, Members};
 use super::merge::{Joint, Merge};
 use super::order;
-use crate::domain::{Corner, Domain, Site, Walk};
+use crate::domain::{Corner, Domain, Edge, Site, Walk};
 use crate::engine::EngineError;
 use crate::engine::watch::Watch;
 use crate::geom::Point;
+
+/// How often a place of the table of corners is found taken, per corner, before corners are sorted.
+const MOST_PROBES: usize = 16;
 
 /// The simple rings of a walk, each by its edges in boundary order; the last one is never cut out.
 pub(super) fn simple_rings(members: Members<'_>, walk: &Walk) -> Vec<Vec<u32>> {
@@ -141,8 +144,64 @@ pub(super) fn merge(
 
 /// Whether any two corners share a place, or an edge goes straight on.
 pub(super) fn any(domain: &Domain) -> bool {
-    let mut corners: Vec<Point> = domain.edges().iter().map(|edge| edge.start).collect();
+    let edges = domain.edges();
+    if edges.iter().any(|edge| edge.corner == Corner::Straight) {
+        return true;
+    }
+    // A table of corners by hash, at most half full.
+    let bits = (2 * edges.len()).next_power_of_two().trailing_zeros().max(1);
+    let mut table = vec![NONE; 1 << bits];
+    let mut left = MOST_PROBES * edges.len();
+    for (k, edge) in (0..).zip(edges) {
+        let mut at = (hash(edge.start) >> (u64::BITS - bits)) as usize;
+        while table[at] != NONE {
+            if domain.edge(table[at]).start == edge.start {
+                return true;
+            }
+            if left == 0 {
+                return any_in_order(edges);
+            }
+            left -= 1;
+            at = (at + 1) & (table.len() - 1);
+        }
+        table[at] = k;
+    }
+    false
+}
+
+/// The same by sorting.
+fn any_in_order(edges: &[Edge]) -> bool {
+    let mut corners: Vec<Point> = edges.iter().map(|edge| edge.start).collect();
     corners.sort_unstable_by(|a, b| a.lexicographic(*b));
     corners.windows(2).any(|pair| pair[0] == pair[1])
-        || domain.edges().iter().any(|edge| edge.corner == Corner::Straight)
+}
+
+/// A number whose first bits depend on all bits of a point; the same for either zero.
+fn hash(p: Point) -> u64 {
+    const ODD: u64 = 0x9e37_79b9_7f4a_7c15;
+    let [x, y] = [p.x, p.y].map(|v| (v + 0.0).to_bits());
+    let mixed = (x.wrapping_mul(ODD) ^ y.rotate_left(32)).wrapping_mul(ODD);
+    (mixed ^ mixed >> 29).wrapping_mul(ODD)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::domain::Options;
+
+    #[test]
+    fn corners_in_one_place_are_found_by_table_and_in_order() {
+        let ring = |corners: &[(f64, f64)]| -> Vec<Point> {
+            corners.iter().map(|&(x, y)| Point::new(x, y)).collect()
+        };
+        let outer = ring(&[(-4., 0.), (4., -1.), (0., 6.)]);
+        let hole = |x: f64| ring(&[(x, 1.), (0., 3.), (x / 2., 2.5)]);
+        let domain = |rings: &[Vec<Point>]| {
+            Domain::from_polygons(&[rings.to_vec()], &Options::default()).unwrap()
+        };
+        let apart = domain(&[outer.clone(), hole(-1.)]);
+        let touching = domain(&[outer, hole(-1.), hole(1.)]);
+        assert!(!any(&apart) && !any_in_order(apart.edges()));
+        assert!(any(&touching) && any_in_order(touching.edges()));
+    }
 }
