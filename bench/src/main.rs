@@ -26,7 +26,9 @@ fn main() -> Result<(), Error> {
         ["both", engine] => both(engine.parse()?),
         ["axis", shape, edges] => axis(shape, edges.parse()?),
         ["work", shape, edges] => work(shape, edges.parse()?),
-        _ => Err("medial-bench draw, axis or work SHAPE EDGES, time [ENGINE], or both ENGINE".into()),
+        _ => {
+            Err("medial-bench draw, axis or work SHAPE EDGES, time [ENGINE], or both ENGINE".into())
+        }
     }
 }
 
@@ -59,7 +61,9 @@ fn both(engine: Engine) -> Result<(), Error> {
         prepare: |polygons| polygons,
         first: |polygons: &text::Polygons| Ok(medial_bench_domain(polygons)?),
         second: |domain: &mut Domain| Ok(both_sides(domain, engine, None, &options)?),
-        count: |_: &Domain, axes: &[MedialAxis; 2]| axes.iter().map(|axis| axis.paths().len()).sum(),
+        count: |_: &Domain, axes: &[MedialAxis; 2]| {
+            axes.iter().map(|axis| axis.paths().len()).sum()
+        },
     };
     report(&text::read()?, text::edges, &work)
 }

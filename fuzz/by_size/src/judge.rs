@@ -9,7 +9,7 @@ use cpu_time::ThreadTime;
 use medial::axis::{Accuracy, Engine, MedialAxis};
 use medial::check;
 use medial::domain::{Domain, DomainError, Options};
-use medial::engine::{self, path_tracing, path_tracing_with};
+use medial::engine::{self, EngineError, path_tracing, path_tracing_with};
 use medial::geom::Point;
 
 use super::{Polygons, Ring};
@@ -266,7 +266,41 @@ fn compared(shape: &Shape, axis: &MedialAxis, engine: Engine) -> Result<Duration
     if difference.position > 8.0 * f64::EPSILON * size {
         return Err(find(format!("other places: {difference:?}")));
     }
-    Ok(time)
+    match other_side_fault(&domain, &other, engine) {
+        Some(fault) => Err(find(fault)),
+        None => Ok(time),
+    }
+}
+
+/// What is wrong with the two sides of an engine at once, by two threads: with the interior, which is
+/// known, or the exterior, which the default engine gives too.
+fn other_side_fault(domain: &Domain, inside: &MedialAxis, engine: Engine) -> Option<String> {
+    let deadline = Some(Instant::now() + LIMIT);
+    let options = engine::Options { deadline, ..Default::default() };
+    enter("the exterior");
+    let outside = match engine::exterior(domain, Engine::PathTracing, None, &options) {
+        Ok(outside) => outside,
+        // Coordinates too large for a frame, or too far from the origin.
+        Err(EngineError::Frame { .. }) => return None,
+        Err(why) => return Some(format!("exterior: {why}")),
+    };
+    enter("both sides");
+    let threads = NonZeroUsize::MIN.saturating_add(1);
+    let options = engine::Options { threads, alone_below: 0, ..options };
+    let [first, second] = match engine::both_sides(domain, engine, None, &options) {
+        Ok(both) => both,
+        Err(why) => return Some(format!("both sides: {why}")),
+    };
+    if first != *inside {
+        return Some("another interior axis by two threads".into());
+    }
+    enter("the judge of the exterior");
+    let told = check::defects(domain, &second).defects;
+    if let Some(defect) = told.first() {
+        return Some(format!("exterior: {defect}"));
+    }
+    let difference = check::difference(&outside, &second);
+    (!difference.is_same_graph()).then(|| format!("another exterior: {difference:?}"))
 }
 
 /// Numbers that any labelling of a graph has in common: governors of all keypoints by degree.

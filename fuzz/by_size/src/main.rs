@@ -1,7 +1,7 @@
 //! Fuzzing by size: shapes of many families, with 10 to 100,000 edges, each judged in full.
 //!
 //! Every shape is known by its family, size and seed; `--replay` draws it again. With `--engine`
-//! the axis of another engine is judged as well, and compared.
+//! the axis of another engine is judged as well, and compared: inside, outside, and both at once.
 
 mod chains;
 mod families;

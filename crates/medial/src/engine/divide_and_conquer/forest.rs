@@ -19,7 +19,7 @@ use crate::engine::watch::Watch;
 use crate::engine::{EngineError, Options, threads};
 
 /// Tasks for each thread.
-const SHARE: usize = 4;
+const SHARE: usize = 2;
 
 /// Edges of a task, at least, unless fewer are to be shared out.
 const LEAST: usize = 1024;
