@@ -23,8 +23,9 @@ use crate::axis::{Curve, MedialAxis, Path};
 use crate::domain::Domain;
 use crate::geom::Point;
 
-/// Points tried as an end of the longest way around cycles, at most.
-const MOST_TRIED: usize = 256;
+/// Keypoints that are visited at most to find the longest way around cycles, from all points together
+/// that are tried as its end: about a second.
+const MOST_VISITED: usize = 1 << 22;
 
 /// What lines are asked for.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -174,9 +175,11 @@ struct Graph<'a> {
     incidence: Incidence,
     lengths: Vec<f64>,
     used: Vec<bool>,
+    /// The place of each keypoint in its component, once that is known.
+    places: Vec<u32>,
 }
 
-/// Ways from one keypoint to all others.
+/// Ways from one keypoint to all others of its component, by their places there.
 struct Ways {
     /// Infinite where there is none.
     distances: Vec<f64>,
@@ -198,11 +201,18 @@ const NONE: u32 = u32::MAX;
 fn longest(axis: &MedialAxis, count: usize) -> Vec<Centerline> {
     let lengths = axis.paths().iter().map(|path| axis.curve(&path).length()).collect();
     let used = vec![false; axis.paths().len()];
-    let mut graph = Graph { axis, incidence: Incidence::new(axis), lengths, used };
+    let places = vec![NONE; axis.keypoints().len()];
+    let mut graph = Graph { axis, incidence: Incidence::new(axis), lengths, used, places };
     let mut lines = Vec::new();
+    let all: Vec<u32> = (0..axis.keypoints().len() as u32).collect();
+    // Each component that is left, with its longest way.
+    let mut left = Vec::new();
+    graph.add_components(&all, &mut left);
     while lines.len() < count {
-        let ways = graph.components().into_iter().filter_map(|component| graph.longest(&component));
-        let Some(way) = ways.max_by(|a, b| a.length.total_cmp(&b.length)) else { break };
+        let length = |k: usize| -> f64 { left[k].1.length };
+        let longest = (0..left.len()).max_by(|&a, &b| length(a).total_cmp(&length(b)));
+        let Some(best) = longest else { break };
+        let (component, way) = left.swap_remove(best);
         for &number in &way.numbers {
             graph.used[number as usize] = true;
         }
@@ -212,6 +222,7 @@ fn longest(axis: &MedialAxis, count: usize) -> Vec<Centerline> {
         let curves = way.paths.iter().map(|path| axis.curve(path)).collect();
         let (extensions, is_longest) = ([None; 2], way.is_longest);
         lines.push(Centerline { curves, extensions, is_longest, is_free });
+        graph.add_components(&component, &mut left);
     }
     lines
 }
@@ -227,50 +238,52 @@ impl Graph<'_> {
         if path.from == keypoint { path.to } else { path.from }
     }
 
-    /// The keypoints of each component with a path.
-    fn components(&self) -> Vec<Vec<u32>> {
-        let n = self.axis.keypoints().len();
-        let mut seen = vec![false; n];
-        let mut components = Vec::new();
-        for start in 0..n as u32 {
-            if seen[start as usize] || self.paths_at(start).next().is_none() {
+    /// Adds what these keypoints, which are joined to no others, have for components with a path, each
+    /// with its longest way.
+    fn add_components(&mut self, keypoints: &[u32], list: &mut Vec<(Vec<u32>, Way)>) {
+        for &keypoint in keypoints {
+            self.places[keypoint as usize] = NONE;
+        }
+        for &start in keypoints {
+            if self.places[start as usize] != NONE || self.paths_at(start).next().is_none() {
                 continue;
             }
-            seen[start as usize] = true;
+            self.places[start as usize] = 0;
             let mut component = vec![start];
             let mut next = 0;
             while let Some(&keypoint) = component.get(next) {
                 next += 1;
-                for path in self.paths_at(keypoint) {
+                for &path in self.incidence.of(keypoint) {
                     let other = self.other_end(path, keypoint);
-                    if !std::mem::replace(&mut seen[other as usize], true) {
+                    if !self.used[path as usize] && self.places[other as usize] == NONE {
+                        self.places[other as usize] = component.len() as u32;
                         component.push(other);
                     }
                 }
             }
-            components.push(component);
+            let way = self.longest(&component);
+            list.extend(way.map(|way| (component, way)));
         }
-        components
     }
 
-    /// The shortest ways from a keypoint.
-    fn ways_from(&self, start: u32) -> Ways {
-        let n = self.axis.keypoints().len();
+    /// The shortest ways from a keypoint of a component of so many.
+    fn ways_from(&self, start: u32, n: usize) -> Ways {
+        let place = |keypoint: u32| self.places[keypoint as usize] as usize;
         let mut ways = Ways { distances: vec![f64::INFINITY; n], last: vec![NONE; n] };
-        ways.distances[start as usize] = 0.0;
+        ways.distances[place(start)] = 0.0;
         // Positive numbers are in the order of their bits.
         let mut heap = BinaryHeap::from([Reverse((0_u64, start))]);
         while let Some(Reverse((bits, keypoint))) = heap.pop() {
             let distance = f64::from_bits(bits);
-            if distance > ways.distances[keypoint as usize] {
+            if distance > ways.distances[place(keypoint)] {
                 continue;
             }
             for path in self.paths_at(keypoint) {
                 let other = self.other_end(path, keypoint);
                 let there = distance + self.lengths[path as usize];
-                if there < ways.distances[other as usize] {
-                    ways.distances[other as usize] = there;
-                    ways.last[other as usize] = path;
+                if there < ways.distances[place(other)] {
+                    ways.distances[place(other)] = there;
+                    ways.last[place(other)] = path;
                     heap.push(Reverse((there.to_bits(), other)));
                 }
             }
@@ -281,8 +294,7 @@ impl Graph<'_> {
     /// The keypoint of a component that is farthest by these ways; of equal ones the first.
     fn farthest(component: &[u32], ways: &Ways) -> (u32, f64) {
         let mut best = (component[0], 0.0);
-        for &keypoint in component {
-            let distance = ways.distances[keypoint as usize];
+        for (&keypoint, &distance) in component.iter().zip(&ways.distances) {
             if distance > best.1 {
                 best = (keypoint, distance);
             }
@@ -298,31 +310,33 @@ impl Graph<'_> {
         if component.iter().all(|&k| degree(k) == 2) {
             return Some(self.cycle(component[0]));
         }
-        let (start, _) = Self::farthest(component, &self.ways_from(component[0]));
-        let mut best = (start, self.ways_from(start));
+        let n = component.len();
+        let place = |keypoint: u32| self.places[keypoint as usize] as usize;
+        let (start, _) = Self::farthest(component, &self.ways_from(component[0], n));
+        let mut best = (start, self.ways_from(start, n));
         let (mut end, mut length) = Self::farthest(component, &best.1);
         let mut is_longest = true;
-        if n_paths >= component.len() {
+        if n_paths >= n {
             // Around cycles: from the middle of the way found, no two keypoints are farther apart than
             // twice the farther of the two.
             let middle = self.back(&best.1, best.0, end);
             let half = middle
                 .iter()
                 .map(|&(_, k)| k)
-                .find(|&k| best.1.distances[k as usize] * 2.0 <= length);
-            let around = self.ways_from(half.unwrap_or(end));
+                .find(|&k| best.1.distances[place(k)] * 2.0 <= length);
+            let around = self.ways_from(half.unwrap_or(end), n);
             let mut order: Vec<u32> = component.to_vec();
-            let distance = |k: u32| around.distances[k as usize];
+            let distance = |k: u32| around.distances[place(k)];
             order.sort_by(|&a, &b| distance(b).total_cmp(&distance(a)).then(a.cmp(&b)));
             for (tried, &keypoint) in order.iter().enumerate() {
                 if 2.0 * distance(keypoint) <= length {
                     break;
                 }
-                if tried == MOST_TRIED {
+                if tried * n > MOST_VISITED {
                     is_longest = false;
                     break;
                 }
-                let ways = self.ways_from(keypoint);
+                let ways = self.ways_from(keypoint, n);
                 let (other, there) = Self::farthest(component, &ways);
                 if there > length {
                     (best, end, length) = ((keypoint, ways), other, there);
@@ -346,7 +360,7 @@ impl Graph<'_> {
         let mut back = Vec::new();
         let mut keypoint = from;
         while keypoint != start {
-            let path = ways.last[keypoint as usize];
+            let path = ways.last[self.places[keypoint as usize] as usize];
             keypoint = self.other_end(path, keypoint);
             back.push((path, keypoint));
         }
