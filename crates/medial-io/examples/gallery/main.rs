@@ -16,6 +16,7 @@ mod lee_8;
 mod lee_9_11;
 mod lesson;
 mod letter;
+mod pruned;
 mod shape;
 mod sheet;
 mod style;
@@ -56,7 +57,7 @@ const LESSONS: [Lesson; 12] = [
 ];
 
 /// Pictures besides, each in a file of its name.
-const PICTURES: [(&str, Lesson); 10] = [
+const PICTURES: [(&str, Lesson); 11] = [
     ("lee-1-2", lee_1_2::LESSON),
     ("voronoi", voronoi::LESSON),
     ("both-sides", both_sides::LESSON),
@@ -67,6 +68,7 @@ const PICTURES: [(&str, Lesson); 10] = [
     ("lee-9-11", lee_9_11::LESSON),
     ("letter", letter::LESSON),
     ("lake", lake::LESSON),
+    ("pruned", pruned::LESSON),
 ];
 
 const HEAD: &str = "\
