@@ -338,7 +338,7 @@ fn a_cut_that_is_not_on_the_frame_of_the_others_is_found() {
     let mut parts = Parts::of(&axis);
     let cuts = || axis.keypoints().iter().filter(|k| k.kind == KeypointKind::Clipped);
     assert!(cuts().count() > 1);
-    let at = cuts().last().unwrap();
+    let at = cuts().next_back().unwrap();
     let number = parts.at(at.position.x, at.position.y);
     let start = parts.paths.iter().find_map(|p| match (p.from, p.to) {
         (from, to) if to as usize == number => Some(from),
