@@ -53,8 +53,8 @@ Exit status: 0 all done; 1 no usable result; 2 wrong usage; 3 some features were
 
 const PRUNE_HELP: &str = "\
 Points of the axis below a value of a measure are removed, from the leaves inwards, so components and
-cycles stay; paths are cut where the value is reached. Measures, in units of the input but for the last
-two of each line:
+cycles stay; paths are cut where the value is reached. Measures, in units of the input but for those of the
+last line:
   excess        how far the boundary moves if a disk takes the place of what is removed
   potential, chord, circularity
                 boundary that is cut off; less its chord; less the arc of the disk that faces it
@@ -114,7 +114,8 @@ pub struct AxisArgs {
 const CENTERLINE_HELP: &str = "\
 A line runs through the axis between the two ends that are farthest apart, by the shortest way between
 them; corners blunter than some 84 degrees are no ends. Around holes it takes the shorter side; a ring
-without ends has one closed line. Further lines (--count) use no part of those before.
+without ends has one closed line. Further lines (--count) use no part of those before. Lines are ranked
+by their length inside the axis.
 
 Examples:
   medial centerline fixtures/river.geojson -o river.line.geojson
@@ -140,7 +141,7 @@ pub struct CenterlineArgs {
     #[arg(long, value_name = "NAME", default_value = "path_tracing", value_parser = engine)]
     pub engine: Engine,
     /// How many lines of each feature, at most
-    #[arg(long, value_name = "N", default_value = "1")]
+    #[arg(long, value_name = "N", default_value = "1", value_parser = count)]
     pub count: NonZeroUsize,
     /// How far lines go on straight beyond the axis
     #[arg(long, value_name = "WHERE", default_value = "none")]
@@ -481,6 +482,10 @@ fn not_negative(word: &str) -> Result<f64, String> {
         Ok(value) if value >= 0.0 => Ok(value),
         _ => Err("a number that is not negative is needed".to_owned()),
     }
+}
+
+fn count(word: &str) -> Result<NonZeroUsize, String> {
+    word.parse().map_err(|_| "a whole number from 1 on is needed".to_owned())
 }
 
 fn threshold(word: &str) -> Result<(Measure, f64), String> {

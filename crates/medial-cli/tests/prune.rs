@@ -74,3 +74,12 @@ fn wrong_usage_is_told_in_one_line() {
         assert!(run.errors.contains(told) && run.errors.lines().count() == 1, "{}", run.errors);
     }
 }
+
+#[test]
+fn both_sides_are_pruned_within_any_frame() {
+    let dent = "POLYGON ((0 0, 100 0, 100 100, 50 99, 0 100, 0 0))";
+    let pruned =
+        medial_with(&["prune", "-", "--side", "both", "--max-error", "3", "--to", "json"], dent);
+    assert_eq!((pruned.status, pruned.errors.as_str()), (Some(0), ""));
+    assert_eq!(pruned.text().lines().count(), 2);
+}

@@ -78,6 +78,36 @@ fn a_cut_inside_a_path_lies_where_the_threshold_is_reached() {
 }
 
 #[test]
+fn a_neck_counts_where_it_is_narrowest() {
+    // Between the corners (2, 1) and (2, 3) footpoints lie opposite one another; before and behind that
+    // the angle is smaller.
+    let funnel = "POLYGON ((0 0, 2 1, 14 -6, 14 10, 2 3, 0 4, 0 0))";
+    let domain = shapes::wkt(funnel);
+    let axis = path_tracing(&domain).unwrap();
+    let hierarchy = Hierarchy::new(&domain, &axis).unwrap();
+    for threshold in [2.5, 3.0, 3.14] {
+        let left = hierarchy.pruned(Measure::Angle, threshold).axis;
+        let reach = left.keypoints().iter().map(|k| k.position.x).fold(f64::INFINITY, f64::min);
+        assert!(reach < 2.0 && reach > 1.0, "{threshold}: {reach}");
+    }
+    let most = hierarchy.significance(Measure::Angle).paths;
+    assert!(most.iter().any(|span| span.most == PI), "{most:?}");
+}
+
+#[test]
+fn what_a_frame_cuts_never_burns() {
+    // The gap of the shallow dent goes far beyond the frame.
+    let domain = shapes::wkt("POLYGON ((0 0, 100 0, 100 100, 50 99, 0 100, 0 0))");
+    let options = engine::Options::default();
+    let outside = exterior(&domain, Engine::PathTracing, None, &options).unwrap();
+    assert!(!outside.complete);
+    let hierarchy = Hierarchy::new(&domain, &outside).unwrap();
+    let pruned = hierarchy.pruned(Measure::Potential, f64::INFINITY).axis;
+    assert_eq!(check::defects(&domain, &pruned).defects, []);
+    assert!(pruned.keypoints().len() < outside.keypoints().len());
+}
+
+#[test]
 fn cycles_never_burn() {
     let frame = "POLYGON ((0 0, 9 0, 9 9, 0 9, 0 0), (3 3, 3 6, 6 6, 6 3, 3 3))";
     let domain = shapes::wkt(frame);
@@ -203,7 +233,7 @@ fn random_shapes(family: Family, ground: Ground, most: u64, seed: u64, count: us
         let inside = path_tracing(&domain).unwrap();
         let outside =
             exterior(&domain, Engine::PathTracing, None, &engine::Options::default()).unwrap();
-        for axis in [Some(&inside), outside.complete.then_some(&outside)].into_iter().flatten() {
+        for axis in [&inside, &outside] {
             let found = faults(&domain, axis);
             assert!(found.is_empty(), "{}: {}: {found:#?}", axis.side, shapes::to_wkt(&polygons));
         }

@@ -78,15 +78,9 @@ pub fn run(args: &AxisArgs) -> Result<Status, Failure> {
     Ok(status)
 }
 
-/// Why nothing can be removed.
+/// Why nothing can be removed: whatever the engines give can be pruned.
 pub fn not_burnt(error: &HierarchyError) -> Entry {
-    match error {
-        HierarchyError::Incomplete => Entry::refused(
-            "incomplete",
-            "the frame cuts more of the exterior axis than paths to infinity; give a larger --frame",
-        ),
-        _ => Entry::refused("internal", error.to_string()),
-    }
+    Entry::refused("internal", error.to_string())
 }
 
 /// The axes of a feature by an engine, one for each side that is asked for, or why it is refused.

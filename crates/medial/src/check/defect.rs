@@ -316,7 +316,7 @@ impl fmt::Display for Defect {
             }
             Self::IdleSite { site, .. } => write!(f, "site {site} governs nothing"),
             Self::Kind { keypoint, kind, degree, .. } => {
-                write!(f, "keypoint {keypoint}: {degree} paths meet at a keypoint of kind {kind:?}")
+                write!(f, "keypoint {keypoint}: {degree} paths meet at a keypoint of kind {kind}")
             }
             Self::ListStart { keypoint, .. } => {
                 write!(f, "keypoint {keypoint}: the list does not start with its smallest governor")

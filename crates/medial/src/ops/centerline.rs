@@ -71,11 +71,12 @@ pub struct Widths {
 }
 
 impl Centerline {
-    /// Whether it ends where it starts.
+    /// Whether it ends where it starts, and not just where two ends of the axis share a corner in which
+    /// boundaries touch.
     #[must_use]
     pub fn is_closed(&self) -> bool {
         let ends = self.curves.first().map(Curve::from).zip(self.curves.last().map(Curve::to));
-        ends.is_some_and(|(from, to)| from == to)
+        self.is_free == [false; 2] && ends.is_some_and(|(from, to)| from == to)
     }
 
     /// Its length inside the axis and, if it goes on to the boundary, beyond.
@@ -109,7 +110,7 @@ impl Centerline {
             sum += area(curve);
             length += curve.length();
         }
-        let mean = if length > 0.0 { sum / length } else { greatest };
+        let mean = if length > 0.0 { (sum / length).clamp(least, greatest) } else { greatest };
         Widths { least: 2.0 * least, greatest: 2.0 * greatest, mean: 2.0 * mean }
     }
 }
@@ -126,7 +127,7 @@ fn area(curve: &Curve) -> f64 {
     (0..PIECES).map(piece).sum()
 }
 
-/// The main lines of a shape, the longest first.
+/// The main lines of a shape, the longest inside the axis first.
 ///
 /// A component that is pruned to a single point has the longest way through its whole axis.
 ///
@@ -157,10 +158,7 @@ pub fn centerlines(
 ) -> Result<Vec<Centerline>, HierarchyError> {
     let (measure, value) = options.ends;
     let pruned = Hierarchy::new(domain, axis)?.pruned(measure, value).axis;
-    let mut lines = longest(&pruned, options.count);
-    if lines.is_empty() {
-        lines = longest(axis, options.count);
-    }
+    let mut lines = longest(&pruned, axis, options.count);
     if options.to_boundary {
         for line in &mut lines {
             line.extensions = extensions(domain, line);
@@ -197,37 +195,71 @@ struct Way {
 
 const NONE: u32 = u32::MAX;
 
-/// The longest ways, each without the paths of those before.
-fn longest(axis: &MedialAxis, count: usize) -> Vec<Centerline> {
-    let lengths = axis.paths().iter().map(|path| axis.curve(&path).length()).collect();
-    let used = vec![false; axis.paths().len()];
-    let places = vec![NONE; axis.keypoints().len()];
-    let mut graph = Graph { axis, incidence: Incidence::new(axis), lengths, used, places };
-    let mut lines = Vec::new();
-    let all: Vec<u32> = (0..axis.keypoints().len() as u32).collect();
-    // Each component that is left, with its longest way.
+/// A component of one of two graphs, with its longest way.
+struct Component {
+    graph: usize,
+    keypoints: Vec<u32>,
+    way: Way,
+}
+
+/// The longest ways through what is left of an axis, or through the axis itself where that is a single
+/// point, each without the paths of those before.
+fn longest(pruned: &MedialAxis, axis: &MedialAxis, count: usize) -> Vec<Centerline> {
+    let mut graphs = [Graph::new(pruned), Graph::new(axis)];
     let mut left = Vec::new();
-    graph.add_components(&all, &mut left);
+    let add = |graphs: &mut [Graph<'_>; 2], graph: usize, of: &[u32], left: &mut Vec<Component>| {
+        let found = graphs[graph].components(of).into_iter();
+        left.extend(found.map(|(keypoints, way)| Component { graph, keypoints, way }));
+    };
+    let all: Vec<u32> = (0..pruned.keypoints().len() as u32).collect();
+    add(&mut graphs, 0, &all, &mut left);
+    add(&mut graphs, 1, &points_left(pruned, axis), &mut left);
+    let mut lines = Vec::new();
     while lines.len() < count {
-        let length = |k: usize| -> f64 { left[k].1.length };
+        let length = |k: usize| -> f64 { left[k].way.length };
         let longest = (0..left.len()).max_by(|&a, &b| length(a).total_cmp(&length(b)));
-        let Some(best) = longest else { break };
-        let (component, way) = left.swap_remove(best);
-        for &number in &way.numbers {
-            graph.used[number as usize] = true;
+        let Some(longest) = longest else { break };
+        let Component { graph: number, keypoints, way } = left.swap_remove(longest);
+        let graph = &mut graphs[number];
+        for &path in &way.numbers {
+            graph.used[path as usize] = true;
         }
         let is_end = |k: Option<u32>| k.is_some_and(|k| graph.incidence.of(k).len() == 1);
         let is_free =
             [way.paths.first().map(|p| p.from), way.paths.last().map(|p| p.to)].map(is_end);
-        let curves = way.paths.iter().map(|path| axis.curve(path)).collect();
+        let curves = way.paths.iter().map(|path| graph.axis.curve(path)).collect();
         let (extensions, is_longest) = ([None; 2], way.is_longest);
         lines.push(Centerline { curves, extensions, is_longest, is_free });
-        graph.add_components(&component, &mut left);
+        add(&mut graphs, number, &keypoints, &mut left);
     }
     lines
 }
 
-impl Graph<'_> {
+/// A keypoint of each component of an axis of which a single point is left.
+fn points_left(pruned: &MedialAxis, axis: &MedialAxis) -> Vec<u32> {
+    let mut path_of = vec![NONE; axis.sites().len()];
+    for (number, path) in (0..).zip(axis.paths()) {
+        path_of[path.left as usize] = number;
+        path_of[path.right as usize] = number;
+    }
+    // Sites that are left are in the same order.
+    let mut all = (0_u32..).zip(axis.sites().iter());
+    let same = |site| all.find(|(_, other)| *other == site).map(|(number, _)| number);
+    let numbers: Vec<Option<u32>> = pruned.sites().iter().map(same).collect();
+    let alone = |&(_, degree): &(u32, u32)| degree == 0;
+    let tips = (0..).zip(pruned.degrees()).filter(alone).map(|(tip, _)| pruned.governors(tip)[0]);
+    let paths = tips.filter_map(|site| numbers[site as usize].map(|k| path_of[k as usize]));
+    paths.filter(|&path| path != NONE).map(|path| axis.paths().at(path).from).collect()
+}
+
+impl<'a> Graph<'a> {
+    fn new(axis: &'a MedialAxis) -> Self {
+        let lengths = axis.paths().iter().map(|path| axis.curve(&path).length()).collect();
+        let used = vec![false; axis.paths().len()];
+        let places = vec![NONE; axis.keypoints().len()];
+        Self { axis, incidence: Incidence::new(axis), lengths, used, places }
+    }
+
     /// The paths at a keypoint that are left.
     fn paths_at(&self, keypoint: u32) -> impl Iterator<Item = u32> {
         self.incidence.of(keypoint).iter().copied().filter(|&path| !self.used[path as usize])
@@ -238,9 +270,10 @@ impl Graph<'_> {
         if path.from == keypoint { path.to } else { path.from }
     }
 
-    /// Adds what these keypoints, which are joined to no others, have for components with a path, each
-    /// with its longest way.
-    fn add_components(&mut self, keypoints: &[u32], list: &mut Vec<(Vec<u32>, Way)>) {
+    /// The components with a path in which these keypoints lie, each with its longest way. Whatever these
+    /// keypoints were joined to before is among them.
+    fn components(&mut self, keypoints: &[u32]) -> Vec<(Vec<u32>, Way)> {
+        let mut list = Vec::new();
         for &keypoint in keypoints {
             self.places[keypoint as usize] = NONE;
         }
@@ -264,6 +297,7 @@ impl Graph<'_> {
             let way = self.longest(&component);
             list.extend(way.map(|way| (component, way)));
         }
+        list
     }
 
     /// The shortest ways from a keypoint of a component of so many.
@@ -291,10 +325,11 @@ impl Graph<'_> {
         ways
     }
 
-    /// The keypoint of a component that is farthest by these ways; of equal ones the first.
-    fn farthest(component: &[u32], ways: &Ways) -> (u32, f64) {
-        let mut best = (component[0], 0.0);
-        for (&keypoint, &distance) in component.iter().zip(&ways.distances) {
+    /// Of some keypoints of a component the one that is farthest by these ways; of equal ones the first.
+    fn farthest(&self, keypoints: &[u32], ways: &Ways) -> (u32, f64) {
+        let mut best = (keypoints[0], 0.0);
+        for &keypoint in keypoints {
+            let distance = ways.distances[self.places[keypoint as usize] as usize];
             if distance > best.1 {
                 best = (keypoint, distance);
             }
@@ -302,31 +337,38 @@ impl Graph<'_> {
         best
     }
 
-    /// The way between those two keypoints of a component that are farthest apart; all of it, if it is a
-    /// single cycle.
+    /// The way between those two ends of a component that are farthest apart. If it has one end only, from
+    /// there to the farthest keypoint; if none, between the farthest two, or all of it, if it is a single
+    /// cycle.
     fn longest(&self, component: &[u32]) -> Option<Way> {
         let degree = |keypoint: u32| self.paths_at(keypoint).count();
+        let n = component.len();
         let n_paths = component.iter().map(|&k| degree(k)).sum::<usize>() / 2;
         if component.iter().all(|&k| degree(k) == 2) {
             return Some(self.cycle(component[0]));
         }
-        let n = component.len();
+        let mut ends: Vec<u32> = component.iter().copied().filter(|&k| degree(k) == 1).collect();
+        let lone = (ends.len() == 1).then(|| ends[0]);
+        if ends.len() < 2 {
+            ends = component.to_vec();
+        }
         let place = |keypoint: u32| self.places[keypoint as usize] as usize;
-        let (start, _) = Self::farthest(component, &self.ways_from(component[0], n));
+        let start =
+            lone.unwrap_or_else(|| self.farthest(&ends, &self.ways_from(component[0], n)).0);
         let mut best = (start, self.ways_from(start, n));
-        let (mut end, mut length) = Self::farthest(component, &best.1);
+        let (mut end, mut length) = self.farthest(&ends, &best.1);
         let mut is_longest = true;
-        if n_paths >= n {
-            // Around cycles: from the middle of the way found, no two keypoints are farther apart than
-            // twice the farther of the two.
+        if n_paths >= n && lone.is_none() {
+            // Around cycles: from the middle of the way found, no two ends are farther apart than twice
+            // the farther of the two.
             let middle = self.back(&best.1, best.0, end);
             let half = middle
                 .iter()
                 .map(|&(_, k)| k)
                 .find(|&k| best.1.distances[place(k)] * 2.0 <= length);
             let around = self.ways_from(half.unwrap_or(end), n);
-            let mut order: Vec<u32> = component.to_vec();
             let distance = |k: u32| around.distances[place(k)];
+            let mut order = ends.clone();
             order.sort_by(|&a, &b| distance(b).total_cmp(&distance(a)).then(a.cmp(&b)));
             for (tried, &keypoint) in order.iter().enumerate() {
                 if 2.0 * distance(keypoint) <= length {
@@ -337,7 +379,7 @@ impl Graph<'_> {
                     break;
                 }
                 let ways = self.ways_from(keypoint, n);
-                let (other, there) = Self::farthest(component, &ways);
+                let (other, there) = self.farthest(&ends, &ways);
                 if there > length {
                     (best, end, length) = ((keypoint, ways), other, there);
                 }

@@ -2,8 +2,8 @@
 //! above any threshold.
 //!
 //! # Contract
-//! Values belong to a complete exact axis of either side, and grow along each path in the direction in
-//! which it burns. Points whose value lies below a threshold are removed, from the leaves inwards: the
+//! Values belong to an exact axis of either side, complete but for what a frame cuts off outside, and grow
+//! along each path in the direction in which it burns. Points whose value lies below a threshold are removed, from the leaves inwards: the
 //! running maximum counts [SB98], so components and cycles stay, and of a component that is removed the
 //! root stays as a single tip. Cuts lie at the parameter where the threshold is reached, rounded.
 //! Everything takes O(n log n) for n keypoints, a search for far corners aside, which depends on the
@@ -14,7 +14,9 @@
 //!    tree.
 //! 2. Measures have closed forms along a path: see [`Limb::value`]. Lengths along the boundary come from
 //!    prefix sums.
-//! 3. Values at keypoints are the largest of what comes from the leaves.
+//! 3. Values at keypoints are the largest of what comes from the leaves: at keypoints and necks. All
+//!    measures are largest there, but for the relative excess, and the excess, which may be a little
+//!    larger elsewhere on a path that has a corner for a governor.
 //!
 //! # Departures
 //! The root of a tree is where it burns last; the papers leave it to be found otherwise.
@@ -26,7 +28,7 @@ use super::fire::{Fire, Way};
 use super::ground::Ground;
 use super::measure::Measure;
 use super::rest::{Pruned, Rest};
-use crate::axis::{Accuracy, Curve, MedialAxis, Path, Side, bisected};
+use crate::axis::{Accuracy, Curve, KeypointKind, MedialAxis, Path, Side, bisected};
 use crate::check::Name;
 use crate::domain::{Domain, Site};
 use crate::engine::exterior_frame;
@@ -72,8 +74,8 @@ pub struct Significance {
     pub paths: Vec<Span>,
 }
 
-/// The values of a measure along a path: at each point the largest from the leaves up to there. Infinite
-/// where nothing burns.
+/// The values of a measure along a path: at each point the largest from the leaves up to there, of those
+/// at keypoints and necks. Infinite where nothing burns.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Span {
     /// Where the path starts.
@@ -138,9 +140,12 @@ impl<'a> Hierarchy<'a> {
     /// ```
     ///
     /// # Errors
-    /// If the axis is not complete and exact, or not of this domain.
+    /// If the axis is not exact, or pruned, or not of this domain.
     pub fn new(domain: &'a Domain, axis: &'a MedialAxis) -> Result<Self, HierarchyError> {
-        if !axis.complete || axis.accuracy != Accuracy::Exact {
+        // Where a frame cuts paths nothing burns, so what does has all of its leaves.
+        let is_cut = axis.side == Side::Exterior
+            && axis.keypoints().iter().all(|keypoint| keypoint.kind != KeypointKind::Tip);
+        if !(axis.complete || is_cut) || axis.accuracy != Accuracy::Exact {
             return Err(HierarchyError::Incomplete);
         }
         let frame = match axis.side {
@@ -244,7 +249,7 @@ impl<'a> Hierarchy<'a> {
         let mut paths = vec![all; self.axis.paths().len()];
         self.burn(|part, limb, before| {
             let first = before.max(limb.value(measure, 0.0));
-            let last = first.max(limb.value(measure, part.end));
+            let last = first.max(limb.most(measure, part.end));
             let span = &mut paths[part.path as usize];
             match (part.forwards, part.root) {
                 (true, None) => *span = Span { start: first, end: last, most: last },
@@ -268,7 +273,7 @@ impl<'a> Hierarchy<'a> {
         let mut lost: Vec<(u32, f64)> = Vec::new();
         self.burn(|part, limb, before| {
             let first = before.max(limb.value(measure, 0.0));
-            let last = first.max(limb.value(measure, part.end));
+            let last = first.max(limb.most(measure, part.end));
             if first >= threshold {
                 return last;
             }
@@ -319,7 +324,7 @@ impl Visitor for Farthest<'_> {
 impl Limb<'_> {
     /// The first parameter at which a measure reaches a threshold, if it does so before an end.
     fn reached(&self, measure: Measure, threshold: f64, end: f64) -> f64 {
-        // Between these places every measure grows, falls or stays.
+        // Between these places nearly every measure grows, falls or stays.
         let neck = self.curve.neck().filter(|&neck| neck < end);
         let middle = neck.filter(|&neck| self.value(measure, neck) >= threshold);
         let (low, high) = match (middle, neck) {
@@ -329,6 +334,13 @@ impl Limb<'_> {
         };
         let at = |u: f64| low + (high - low) * u;
         at(bisected(|u| self.value(measure, at(u)) - threshold))
+    }
+
+    /// The largest value up to a parameter, of those there and at the neck.
+    fn most(&self, measure: Measure, end: f64) -> f64 {
+        let at_neck = self.curve.neck().filter(|&neck| neck < end);
+        let at_neck = at_neck.map_or(0.0, |neck| self.value(measure, neck));
+        self.value(measure, end).max(at_neck)
     }
 
     /// The value of a measure at a parameter, by itself.
