@@ -85,7 +85,7 @@ fn a_neck_counts_where_it_is_narrowest() {
     let domain = shapes::wkt(funnel);
     let axis = path_tracing(&domain).unwrap();
     let hierarchy = Hierarchy::new(&domain, &axis).unwrap();
-    for threshold in [2.5, 3.0, 3.14] {
+    for threshold in [2.5, 3.0, 3.125] {
         let left = hierarchy.pruned(Measure::Angle, threshold).axis;
         let reach = left.keypoints().iter().map(|k| k.position.x).fold(f64::INFINITY, f64::min);
         assert!(reach < 2.0 && reach > 1.0, "{threshold}: {reach}");
