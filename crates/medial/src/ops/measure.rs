@@ -15,19 +15,19 @@ pub enum Measure {
     Excess,
     /// Excess as a share of the radius.
     RelativeExcess,
-    /// `W` [OK95].
+    /// `W` \[OK95\].
     Potential,
-    /// `W` less the distance of the footpoints [OK95].
+    /// `W` less the distance of the footpoints \[OK95\].
     Chord,
-    /// `W` less the arc of the disk that it faces [OK95].
+    /// `W` less the arc of the disk that it faces \[OK95\].
     Circularity,
-    /// Burn time less the radius [LCLJ11].
+    /// Burn time less the radius \[LCLJ11\].
     Erosion,
     /// The longest way along the axis to a leaf.
     Length,
     /// The angle between the footpoints, seen from the centre, in radians.
     Angle,
-    /// Half the distance of the footpoints [CL05].
+    /// Half the distance of the footpoints \[CL05\].
     HalfChord,
     /// The radius.
     Radius,
