@@ -97,7 +97,7 @@ fn what_is_wrong_is_named() {
     );
     assert_eq!(
         error(|d| d["keypoints"][4]["kind"] = json!("knot")),
-        "feature 0: keypoint 4: `knot` is no kind of keypoint; known are end, transition, junction, clipped"
+        "feature 0: keypoint 4: `knot` is no kind of keypoint; known are end, transition, junction, tip, clipped"
     );
     assert_eq!(
         error(|d| d["paths"][1]["curve"] = json!("line")),
