@@ -70,6 +70,11 @@ impl Entry {
         }
     }
 
+    /// What came after the axis failed, which no input should cause.
+    pub fn internal(error: &impl ToString) -> Self {
+        Self::refused("internal", error.to_string())
+    }
+
     /// The feature is no valid domain.
     pub fn invalid(error: &DomainError) -> Self {
         Self {

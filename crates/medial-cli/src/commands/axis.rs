@@ -8,7 +8,7 @@ use crate::timings::timed;
 use medial::axis::{Engine, MedialAxis, Side};
 use medial::domain::Domain;
 use medial::engine::{self, EngineError, both_sides, exterior, interior};
-use medial::ops::{Hierarchy, HierarchyError};
+use medial::ops::Hierarchy;
 use medial_io::svg::Options;
 use medial_io::{Drawing, Format};
 use std::io::IsTerminal as _;
@@ -58,7 +58,8 @@ pub fn run(args: &AxisArgs) -> Result<Status, Failure> {
                 timed(&mut stages.engine, || trace(args.engine, &args.region, domain, &options))?;
             if let Some((measure, value)) = args.pruning.threshold() {
                 let pruned = |axis: &MedialAxis| {
-                    let hierarchy = Hierarchy::new(domain, axis).map_err(|e| not_burnt(&e))?;
+                    let hierarchy =
+                        Hierarchy::new(domain, axis).map_err(|error| Entry::internal(&error))?;
                     Ok(hierarchy.pruned(measure, value).axis)
                 };
                 axes = timed(&mut stages.operations, || {
@@ -76,11 +77,6 @@ pub fn run(args: &AxisArgs) -> Result<Status, Failure> {
     run.stages.write += write;
     run.finish()?;
     Ok(status)
-}
-
-/// Why nothing can be removed: whatever the engines give can be pruned.
-pub fn not_burnt(error: &HierarchyError) -> Entry {
-    Entry::refused("internal", error.to_string())
 }
 
 /// The axes of a feature by an engine, one for each side that is asked for, or why it is refused.

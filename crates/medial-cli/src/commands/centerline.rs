@@ -1,4 +1,4 @@
-use super::axis::{format_of, not_burnt};
+use super::axis::format_of;
 use super::features::{Run, layer};
 use super::sink::Sink;
 use crate::args::CenterlineArgs;
@@ -37,7 +37,7 @@ pub fn run(args: &CenterlineArgs) -> Result<Status, Failure> {
             let axis = timed(&mut stages.engine, || interior(domain, args.engine, &options))
                 .map_err(|error| Entry::unfinished(&error))?;
             let lines = timed(&mut stages.operations, || centerlines(domain, &axis, &asked))
-                .map_err(|error| not_burnt(&error))?;
+                .map_err(|error| Entry::internal(&error))?;
             let tolerance = args.tolerance.unwrap_or_else(|| domain_tolerance(domain));
             let encode = || match format {
                 Format::GeoJson => {

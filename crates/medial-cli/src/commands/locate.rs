@@ -28,7 +28,7 @@ pub fn run(args: &LocateArgs) -> Result<Status, Failure> {
             let located = timed(&mut stages.operations, || {
                 Voronoi::new(domain, &[]).and_then(|voronoi| voronoi.locate(point))
             });
-            let located = located.map_err(|error| Entry::refused("internal", error.to_string()))?;
+            let located = located.map_err(|error| Entry::internal(&error))?;
             let line = location_document::write(feature, point, &located);
             timed(&mut stages.write, || bytes.extend_from_slice(line.as_bytes()));
             Ok(())

@@ -35,7 +35,7 @@ pub fn run(args: &VoronoiArgs) -> Result<Status, Failure> {
                 timed(&mut stages.engine, || trace(args.engine, &args.region, domain, &options))?;
             let voronoi =
                 timed(&mut stages.operations, || diagram(domain, &axes, args.region.frame))
-                    .map_err(|error| Entry::refused("internal", error.to_string()))?;
+                    .map_err(|error| Entry::internal(&error))?;
             let encode = || encode(format, args.tolerance, feature, &voronoi, bytes);
             Ok(timed(&mut stages.write, encode))
         },

@@ -16,8 +16,8 @@
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
+use super::groups::Groups;
 use super::hierarchy::{Hierarchy, HierarchyError};
-use super::incidence::Incidence;
 use super::measure::Measure;
 use crate::axis::{Curve, MedialAxis, Path};
 use crate::domain::Domain;
@@ -170,7 +170,8 @@ pub fn centerlines(
 /// A graph of keypoints and paths, from which paths are taken.
 struct Graph<'a> {
     axis: &'a MedialAxis,
-    incidence: Incidence,
+    /// The paths at each keypoint.
+    incidence: Groups,
     lengths: Vec<f64>,
     used: Vec<bool>,
     /// The place of each keypoint in its component, once that is known.
@@ -205,15 +206,19 @@ struct Component {
 /// The longest ways through what is left of an axis, or through the axis itself where that is a single
 /// point, each without the paths of those before.
 fn longest(pruned: &MedialAxis, axis: &MedialAxis, count: usize) -> Vec<Centerline> {
-    let mut graphs = [Graph::new(pruned), Graph::new(axis)];
+    let mut graphs = vec![Graph::new(pruned)];
     let mut left = Vec::new();
-    let add = |graphs: &mut [Graph<'_>; 2], graph: usize, of: &[u32], left: &mut Vec<Component>| {
+    let add = |graphs: &mut [Graph<'_>], graph: usize, of: &[u32], left: &mut Vec<Component>| {
         let found = graphs[graph].components(of).into_iter();
         left.extend(found.map(|(keypoints, way)| Component { graph, keypoints, way }));
     };
     let all: Vec<u32> = (0..pruned.keypoints().len() as u32).collect();
     add(&mut graphs, 0, &all, &mut left);
-    add(&mut graphs, 1, &points_left(pruned, axis), &mut left);
+    let points = points_left(pruned, axis);
+    if !points.is_empty() {
+        graphs.push(Graph::new(axis));
+        add(&mut graphs, 1, &points, &mut left);
+    }
     let mut lines = Vec::new();
     while lines.len() < count {
         let length = |k: usize| -> f64 { left[k].way.length };
@@ -237,6 +242,10 @@ fn longest(pruned: &MedialAxis, axis: &MedialAxis, count: usize) -> Vec<Centerli
 
 /// A keypoint of each component of an axis of which a single point is left.
 fn points_left(pruned: &MedialAxis, axis: &MedialAxis) -> Vec<u32> {
+    let degrees = pruned.degrees();
+    if !degrees.contains(&0) {
+        return Vec::new();
+    }
     let mut path_of = vec![NONE; axis.sites().len()];
     for (number, path) in (0..).zip(axis.paths()) {
         path_of[path.left as usize] = number;
@@ -247,7 +256,7 @@ fn points_left(pruned: &MedialAxis, axis: &MedialAxis) -> Vec<u32> {
     let same = |site| all.find(|(_, other)| *other == site).map(|(number, _)| number);
     let numbers: Vec<Option<u32>> = pruned.sites().iter().map(same).collect();
     let alone = |&(_, degree): &(u32, u32)| degree == 0;
-    let tips = (0..).zip(pruned.degrees()).filter(alone).map(|(tip, _)| pruned.governors(tip)[0]);
+    let tips = (0..).zip(degrees).filter(alone).map(|(tip, _)| pruned.governors(tip)[0]);
     let paths = tips.filter_map(|site| numbers[site as usize].map(|k| path_of[k as usize]));
     paths.filter(|&path| path != NONE).map(|path| axis.paths().at(path).from).collect()
 }
@@ -257,7 +266,7 @@ impl<'a> Graph<'a> {
         let lengths = axis.paths().iter().map(|path| axis.curve(&path).length()).collect();
         let used = vec![false; axis.paths().len()];
         let places = vec![NONE; axis.keypoints().len()];
-        Self { axis, incidence: Incidence::new(axis), lengths, used, places }
+        Self { axis, incidence: Groups::paths_at_keypoints(axis), lengths, used, places }
     }
 
     /// The paths at a keypoint that are left.

@@ -9,7 +9,7 @@
 use std::cmp::{Ordering, Reverse};
 use std::collections::BinaryHeap;
 
-use super::incidence::Incidence;
+use super::groups::Groups;
 use crate::axis::{KeypointKind, MedialAxis};
 
 /// Which way the fire runs through a path.
@@ -67,7 +67,7 @@ impl Fire {
         let n = axis.keypoints().len();
         let lengths: Vec<f64> =
             axis.paths().iter().map(|path| axis.curve(&path).length()).collect();
-        let incidence = Incidence::new(axis);
+        let incidence = Groups::paths_at_keypoints(axis);
         let mut fire = Self {
             times: vec![f64::INFINITY; n],
             ways: vec![Way::Never; lengths.len()],

@@ -3,9 +3,10 @@
 //!
 //! # Contract
 //! Values belong to an exact axis of either side, complete but for what a frame cuts off outside, and grow
-//! along each path in the direction in which it burns. Points whose value lies below a threshold are removed, from the leaves inwards: the
-//! running maximum counts [SB98], so components and cycles stay, and of a component that is removed the
-//! root stays as a single tip. Cuts lie at the parameter where the threshold is reached, rounded.
+//! along each path in the direction in which it burns. Points whose value lies below a threshold are
+//! removed, from the leaves inwards: the running maximum counts [SB98], so components and cycles stay, and
+//! of a component that is removed the root stays as a single tip. Cuts lie at the parameter where the
+//! threshold is reached, rounded.
 //! Everything takes O(n log n) for n keypoints, a search for far corners aside, which depends on the
 //! shape.
 //!
@@ -184,7 +185,7 @@ impl<'a> Hierarchy<'a> {
         }
         let domain = self.ground.domain();
         let walk = domain.walks()[domain.edge(from).walk as usize];
-        let last = walk.first + walk.len - 1;
+        let last = walk.edges().end - 1;
         way + self.before[last as usize] + domain.edge(last).length
     }
 
@@ -412,7 +413,7 @@ impl Limb<'_> {
         let ranges = if first <= last {
             [first..last + 1, 0..0]
         } else {
-            [first..walk.first + walk.len, walk.first..last + 1]
+            [first..walk.edges().end, walk.first..last + 1]
         };
         let mut farthest = Farthest { domain, from: centre, ranges, distance2: 0.0, corner: first };
         let [begin, end] = &farthest.ranges;

@@ -3,8 +3,8 @@
 mod centerline;
 mod fire;
 mod ground;
+mod groups;
 mod hierarchy;
-mod incidence;
 mod measure;
 mod rest;
 mod voronoi;

@@ -22,7 +22,7 @@ pub(super) struct Rest<'a> {
 }
 
 /// A keypoint of what is left.
-struct Point3 {
+struct Spot {
     position: Point,
     radius: f64,
     kind: KeypointKind,
@@ -65,7 +65,7 @@ impl<'a> Rest<'a> {
                 error = error.max(excess);
             }
         }
-        let mut points: Vec<Point3> = Vec::new();
+        let mut points: Vec<Spot> = Vec::new();
         let mut number = vec![u32::MAX; n];
         for (k, keypoint) in (0..).zip(axis.keypoints().iter()) {
             if !stays[k as usize] {
@@ -79,7 +79,7 @@ impl<'a> Rest<'a> {
                 _ => KeypointKind::Junction,
             };
             let (position, radius) = (keypoint.position, keypoint.radius);
-            points.push(Point3 { position, radius, kind, governors: axis.governors(k).to_vec() });
+            points.push(Spot { position, radius, kind, governors: axis.governors(k).to_vec() });
         }
         let mut paths = Vec::new();
         for (path, &[low, high]) in axis.paths().iter().zip(&kept) {
@@ -92,7 +92,7 @@ impl<'a> Rest<'a> {
             let mut tip = |u: f64| {
                 let (position, radius) = (curve.point_at(u), curve.radius_at(u));
                 let governors = vec![path.left.min(path.right), path.left.max(path.right)];
-                points.push(Point3 { position, radius, kind: KeypointKind::Tip, governors });
+                points.push(Spot { position, radius, kind: KeypointKind::Tip, governors });
                 points.len() as u32 - 1
             };
             if is_root {
@@ -110,7 +110,7 @@ impl<'a> Rest<'a> {
 /// An incomplete axis of these parts, with the sites that govern something.
 fn without_idle_sites(
     axis: &MedialAxis,
-    mut points: Vec<Point3>,
+    mut points: Vec<Spot>,
     mut paths: Vec<Path>,
 ) -> MedialAxis {
     let mut number = vec![u32::MAX; axis.sites().len()];

@@ -235,7 +235,7 @@ fn of_walks(
     asked: Asked,
     watch: &Watch<'_>,
 ) -> Result<Diagram, EngineError> {
-    let edges = walks.first().map_or(0, |w| w.first)..walks.last().map_or(0, |w| w.first + w.len);
+    let edges = walks.first().map_or(0, |w| w.first)..walks.last().map_or(0, |w| w.edges().end);
     let mut diagram = Diagram::with_room(edges);
     for walk in walks {
         close_walk(members, &mut diagram, walk, asked, watch)?;

@@ -23,10 +23,10 @@ use std::cmp::Ordering;
 
 use smallvec::SmallVec;
 
-use super::groups::Groups;
 use super::sheet::{NONE, Sheet};
 use crate::geom::predicates::{Element, ExactDisk};
 use crate::geom::{Point, cross_directions};
+use crate::ops::groups::Groups;
 
 /// The hierarchy of the keypoints of one axis.
 #[derive(Debug)]

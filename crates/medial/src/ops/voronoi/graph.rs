@@ -2,13 +2,13 @@
 
 use std::ops::Range;
 
-use super::groups::Groups;
 use super::sheet::{NONE, Sheet};
 use super::{Cell, VoronoiError};
 use crate::axis::{KeypointKind, Side};
 use crate::check::Name;
 use crate::domain::Site;
 use crate::geom::{Point, Rect};
+use crate::ops::groups::Groups;
 
 /// A point where edges of the diagram end.
 #[derive(Clone, Copy, Debug, PartialEq)]

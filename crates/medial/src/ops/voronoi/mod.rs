@@ -27,7 +27,6 @@ mod descent;
 mod error;
 mod frame;
 mod graph;
-mod groups;
 mod locate;
 mod nearest;
 mod sheet;

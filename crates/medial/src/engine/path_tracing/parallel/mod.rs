@@ -39,11 +39,8 @@ use super::tracer::{Care, polygons};
 use crate::axis::MedialAxis;
 use crate::domain::Domain;
 use crate::engine::watch::Watch;
-use crate::engine::{EngineError, Options};
+use crate::engine::{EngineError, Options, threads};
 use crate::geom::Point;
-
-/// Threads beyond this number would only wait for one another.
-const MOST_THREADS: usize = 64;
 
 /// Beginnings for each thread.
 const SEEDS: usize = 4;
@@ -110,7 +107,7 @@ fn attempt(
     watch: &Watch<'_>,
     care: Care,
 ) -> Result<Option<MedialAxis>, EngineError> {
-    let threads = options.threads.get().min(MOST_THREADS);
+    let threads = threads::number(options);
     let shared = Shared::new(domain, polygons(domain)?, options.alone_below, threads, care);
     let mut workers: Vec<Worker<'_, '_>> = (0..threads)
         .map(|number| Worker::new(&shared, number as u32, watch.with(&shared.pool.stop)))

@@ -1,4 +1,9 @@
+//! Numbers by group.
+
+use crate::axis::MedialAxis;
+
 /// Numbers sorted into groups, within each in the order in which they came.
+#[derive(Debug)]
 pub(super) struct Groups {
     /// Where each group starts among the members; the last one ends at the last number.
     first: Vec<u32>,
@@ -20,6 +25,12 @@ impl Groups {
             place[group as usize] += 1;
         }
         Self { first, members }
+    }
+
+    /// The paths at each keypoint of an axis.
+    pub fn paths_at_keypoints(axis: &MedialAxis) -> Self {
+        let ends = || (0..).zip(axis.paths()).flat_map(|(k, path)| [(path.from, k), (path.to, k)]);
+        Self::new(axis.keypoints().len(), ends)
     }
 
     pub fn of(&self, group: u32) -> &[u32] {
