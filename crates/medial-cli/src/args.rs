@@ -27,6 +27,15 @@ pub enum Command {
     /// Compute the medial axis of polygons and remove what is insignificant
     #[command(after_help = PRUNE_HELP)]
     Prune(AxisArgs),
+    /// Compute the branches of the medial axis with their primitives, or peninsulas and bays
+    #[command(after_help = BRANCHES_HELP)]
+    Branches(BranchesArgs),
+    /// Remove what stands out little, and rebuild the polygons
+    #[command(after_help = SMOOTH_HELP)]
+    Smooth(SmoothArgs),
+    /// Rebuild polygons from their axes, pruned or not
+    #[command(after_help = RECONSTRUCT_HELP)]
+    Reconstruct(ReconstructArgs),
     /// Compute the main line of polygons, or the longest few, with widths
     Centerline(CenterlineArgs),
     /// Compute the Voronoi diagram of the boundary elements of polygons
@@ -54,7 +63,7 @@ Exit status: 0 all done; 1 no usable result; 2 wrong usage; 3 some features were
 const PRUNE_HELP: &str = "\
 Points of the axis below a value of a measure are removed, from the leaves inwards, so components and
 cycles stay; paths are cut where the value is reached. Measures, in units of the input but for those of the
-last line:
+last two:
   excess        how far the boundary moves if a disk takes the place of what is removed
   potential, chord, circularity
                 boundary that is cut off; less its chord; less the arc of the disk that faces it
@@ -62,8 +71,10 @@ last line:
                 burn time less radius; the longest way to a leaf
   half_chord, radius
                 half the distance of the footpoints, the radius: both may keep more than lies above
-  relative_excess, angle
-                excess as a share of the radius; the angle between footpoints in radians (may keep more)
+  relative_excess, prominence, angle
+                excess as a share of the radius; the least of that from there to the root, by which limbs
+                go as a whole; the angle between footpoints in radians (may keep more)
+  scale         by how much all disks have to grow until a larger one holds this one (may keep more)
 
 Examples:
   medial prune fixtures/river.geojson --max-error 2 -o river.svg
@@ -93,6 +104,10 @@ pub struct AxisArgs {
     pub region: Region,
     #[command(flatten)]
     pub pruning: Pruning,
+    /// Write these measures of significance for every path, separated by commas: the largest value and
+    /// those at both ends (geojson, geojsonl, csv, json); see `medial prune --help`
+    #[arg(long, value_name = "MEASURE", value_delimiter = ',', value_parser = measure)]
+    pub measures: Vec<Measure>,
     /// Largest distance between a curve and the polyline drawn for it, in units of the input; by
     /// default 1e-4 of the longer side of the feature's box
     #[arg(long, value_name = "T", value_parser = positive, allow_negative_numbers = true)]
@@ -109,6 +124,171 @@ pub struct AxisArgs {
     pub draw: Vec<Extra>,
     #[command(flatten)]
     pub common: Common,
+}
+
+/// Where results go.
+#[derive(Debug, Args)]
+pub struct Target {
+    /// File to write; by default, and for `-`, standard output
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<PathBuf>,
+    /// Format of the output; by default that of the extension, on standard output geojson
+    #[arg(long, value_name = "FORMAT")]
+    pub to: Option<Format>,
+}
+
+const BRANCHES_HELP: &str = "\
+A branch runs from one end or junction to the next. Its primitives tell what the radius does: worm (stays),
+wedge (changes at one rate), flare (its rate grows); opening or closing, and how the axis bends.
+Limbs are branches with a free end, once small ones are pruned (by default relative_excess=0.5):
+peninsulas inside, bays outside up to the convex hull. --match FILE lists the peninsulas of one file that
+fit into bays of the other, as JSON lines with the turn and the shift that bring them together.
+
+Formats: geojson, geojsonl, csv, wkt, wkb.
+
+Examples:
+  medial branches fixtures/river.geojson --max-error 2 -o branches.geojson
+  medial branches fixtures/shapes/plus_of_unit_squares.wkt --by primitive --to csv
+  medial branches fixtures/shapes/plus_of_unit_squares.wkt --limbs --side both --to csv
+  medial branches fixtures/shapes/plus_of_unit_squares.wkt --match fixtures/shapes/l_with_unit_arms.wkt
+
+Exit status: 0 all done; 1 no usable result; 2 wrong usage; 3 some features were left out.";
+
+/// Arguments of `medial branches`.
+#[derive(Debug, Args)]
+pub struct BranchesArgs {
+    /// Polygons: GeoJSON, GeoJSON lines, WKT, WKB or rings; `-` for standard input
+    pub input: PathBuf,
+    #[command(flatten)]
+    pub target: Target,
+    /// Who computes the axis: path_tracing, divide_and_conquer
+    #[arg(long, value_name = "NAME", default_value = "path_tracing", value_parser = engine)]
+    pub engine: Engine,
+    #[command(flatten)]
+    pub region: Region,
+    #[command(flatten)]
+    pub pruning: Pruning,
+    /// One line for each branch, or for each primitive
+    #[arg(long, value_name = "CUT", default_value = "branch")]
+    pub by: Cut,
+    /// Write peninsulas and bays instead
+    #[arg(long)]
+    pub limbs: bool,
+    /// List the limbs that fit into those of this file, as JSON lines
+    #[arg(long = "match", value_name = "FILE", conflicts_with_all = ["limbs", "to", "by"])]
+    pub matching: Option<PathBuf>,
+    /// Largest distance between a curve and the polyline drawn for it, in units of the input; by
+    /// default 1e-4 of the longer side of the feature's box
+    #[arg(long, value_name = "T", value_parser = positive, allow_negative_numbers = true)]
+    pub tolerance: Option<f64>,
+    #[command(flatten)]
+    pub common: Common,
+}
+
+/// Where branches are cut.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Cut {
+    /// At ends and junctions.
+    Branch,
+    /// Where the primitive changes, too.
+    Primitive,
+}
+
+const SMOOTH_HELP: &str = "\
+Limbs are removed that stand out of the disk where they grow out of the shape by less than a share of its
+radius (prominence=0.1, after Ho and Dyer), or what is below another threshold (--prune, --max-error). The rest of the
+boundary stays as it is; arcs close the gaps. `distance` is how far the boundary moved at most.
+
+Formats: geojson, geojsonl, csv, wkt, wkb, rings. An axis document that is complete may stand for polygons.
+
+Examples:
+  medial smooth fixtures/river.geojson -o smooth.geojson
+  medial smooth fixtures/river.geojson --prune prominence=0.3 --to wkt
+
+Exit status: 0 all done; 1 no usable result; 2 wrong usage; 3 some features were left out.";
+
+/// Arguments of `medial smooth`.
+#[derive(Debug, Args)]
+pub struct SmoothArgs {
+    /// Polygons: GeoJSON, GeoJSON lines, WKT, WKB or rings, or axis documents; `-` for standard input
+    pub input: PathBuf,
+    #[command(flatten)]
+    pub target: Target,
+    /// Who computes the axis: path_tracing, divide_and_conquer
+    #[arg(long, value_name = "NAME", default_value = "path_tracing", value_parser = engine)]
+    pub engine: Engine,
+    #[command(flatten)]
+    pub pruning: Pruning,
+    /// Largest distance between an arc and the polyline drawn for it, in units of the input; by
+    /// default 1e-4 of the longer side of the feature's box
+    #[arg(long, value_name = "T", value_parser = positive, allow_negative_numbers = true)]
+    pub tolerance: Option<f64>,
+    #[command(flatten)]
+    pub common: Common,
+}
+
+const RECONSTRUCT_HELP: &str = "\
+From an axis document, or from polygons by way of their axis. Methods:
+  exact      the corners of a complete axis, bit for bit; where something was pruned, arcs of the last disks
+  tangents   the polygonal algorithm of Volkmann and St. Clair, from points along the axis
+  disks      the union of the disks at those points
+`error` is the distance between the new boundary and the old one, where that is known.
+
+Formats: geojson, geojsonl, csv, wkt, wkb, rings.
+
+Examples:
+  medial axis fixtures/river.geojson --to json | medial reconstruct - --from json --to wkt
+  medial reconstruct fixtures/river.geojson --method tangents --step 1 -o river.wkt
+  medial reconstruct fixtures/river.geojson --max-error 2 -o pruned.geojson
+
+Exit status: 0 all done; 1 no usable result; 2 wrong usage; 3 some features were left out.";
+
+/// Arguments of `medial reconstruct`.
+#[derive(Debug, Args)]
+pub struct ReconstructArgs {
+    /// Axis documents, or polygons: GeoJSON, GeoJSON lines, WKT, WKB or rings; `-` for standard input
+    pub input: PathBuf,
+    #[command(flatten)]
+    pub target: Target,
+    /// Who computes the axis of polygons: path_tracing, divide_and_conquer
+    #[arg(long, value_name = "NAME", default_value = "path_tracing", value_parser = engine)]
+    pub engine: Engine,
+    #[command(flatten)]
+    pub pruning: Pruning,
+    /// How polygons are made of an axis
+    #[arg(long, value_name = "NAME", default_value = "exact")]
+    pub method: Method,
+    /// Distance of points along the axis (tangents, disks), in units of the input; by default 1e-3 of
+    /// the longer side of the feature's box
+    #[arg(long, value_name = "D", value_parser = positive, allow_negative_numbers = true)]
+    pub step: Option<f64>,
+    /// Largest distance between an arc and the polyline drawn for it, in units of the input; by
+    /// default 1e-4 of the longer side of the feature's box
+    #[arg(long, value_name = "T", value_parser = positive, allow_negative_numbers = true)]
+    pub tolerance: Option<f64>,
+    #[command(flatten)]
+    pub common: Common,
+}
+
+/// How polygons are made of an axis.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Method {
+    /// Its corners, and arcs.
+    Exact,
+    /// Tangents of disks.
+    Tangents,
+    /// The union of disks.
+    Disks,
+}
+
+impl Method {
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Exact => "exact",
+            Self::Tangents => "tangents",
+            Self::Disks => "disks",
+        }
+    }
 }
 
 const CENTERLINE_HELP: &str = "\
@@ -298,7 +478,8 @@ pub struct CompareArgs {
 #[derive(Debug, Args)]
 pub struct Pruning {
     /// Remove what lies below this value of a measure, from the leaves inwards: excess,
-    /// relative_excess, potential, chord, circularity, erosion, length, angle, half_chord, radius
+    /// relative_excess, prominence, potential, chord, circularity, erosion, length, angle,
+    /// half_chord, radius, scale
     #[arg(long, value_name = "MEASURE=VALUE", value_parser = threshold,
           conflicts_with = "max_error")]
     pub prune: Option<(Measure, f64)>,
@@ -488,10 +669,13 @@ fn count(word: &str) -> Result<NonZeroUsize, String> {
     word.parse().map_err(|_| "a whole number from 1 on is needed".to_owned())
 }
 
+fn measure(word: &str) -> Result<Measure, String> {
+    word.parse().map_err(|error: medial::axis::UnknownName| error.to_string())
+}
+
 fn threshold(word: &str) -> Result<(Measure, f64), String> {
     let (name, value) = word.split_once('=').ok_or("MEASURE=VALUE is needed, as excess=2.5")?;
-    let measure = name.parse().map_err(|error: medial::axis::UnknownName| error.to_string())?;
-    Ok((measure, not_negative(value)?))
+    Ok((measure(name)?, not_negative(value)?))
 }
 
 fn coordinate(word: &str) -> Result<f64, String> {

@@ -1,6 +1,8 @@
 use crate::failure::{Failure, plain};
-use medial_io::{Content, Format};
-use std::io::Read as _;
+use medial_io::{Content, Format, Layer, axis_document};
+use std::cell::RefCell;
+use std::fs::File;
+use std::io::{self, BufRead, BufReader, Cursor, Read as _};
 use std::path::Path;
 
 /// An input, read whole.
@@ -10,24 +12,49 @@ pub struct Input {
     bytes: Vec<u8>,
 }
 
+type Source = Box<dyn BufRead + Send>;
+
+/// An input of polygons in a format that is known.
+pub struct Polygons {
+    /// How messages name it.
+    pub name: String,
+    format: Format,
+    content: Features,
+}
+
+/// What an input holds.
+pub enum Opened {
+    Polygons(Polygons),
+    Axes(Input),
+}
+
+/// What to do with axis documents where polygons are expected.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Documents {
+    /// Nothing can be done with them.
+    Refused,
+    /// Take the polygons that complete axes are made of.
+    AsPolygons,
+}
+
+/// The features of an input.
+enum Features {
+    Whole(Vec<u8>),
+    /// Axis documents.
+    Axes(Vec<u8>),
+    /// Not read yet, or being read.
+    Stream(RefCell<Option<Source>>),
+}
+
 impl Input {
     /// Reads a file, or standard input for `-`.
     pub fn read(path: &Path) -> Result<Self, Failure> {
         let name = name(path);
-        let bytes = if path.as_os_str() == "-" {
-            let mut bytes = Vec::new();
-            std::io::stdin().lock().read_to_end(&mut bytes).map(|_| bytes)
-        } else {
-            std::fs::read(path)
-        };
-        match bytes {
-            Ok(bytes) => Ok(Self { name, bytes }),
-            Err(error) => Err(Failure::file(&name, format_args!("cannot read: {}", plain(&error)))),
-        }
-    }
-
-    pub fn bytes(&self) -> &[u8] {
-        &self.bytes
+        let mut bytes = Vec::new();
+        open(path)
+            .and_then(|mut source| source.read_to_end(&mut bytes))
+            .map_err(|error| unreadable(&name, &error))?;
+        Ok(Self { name, bytes })
     }
 
     pub fn text(&self) -> Result<&str, Failure> {
@@ -40,24 +67,103 @@ impl Input {
     }
 }
 
-fn name(path: &Path) -> String {
-    if path.as_os_str() == "-" { "<stdin>".to_owned() } else { path.display().to_string() }
+impl Opened {
+    /// Opens a file, or standard input for `-`. The format is the one asked for, else that of the
+    /// extension, else told by the content. What has one feature after the other is read later, as it is
+    /// needed.
+    pub fn new(path: &Path, from: Option<Format>) -> Result<Self, Failure> {
+        let name = name(path);
+        let failed = |error: io::Error| unreadable(&name, &error);
+        let mut source = open(path).map_err(failed)?;
+        let mut bytes = Vec::new();
+        let format = match from.or_else(|| Format::from_path(path).ok()) {
+            Some(format @ (Format::Csv | Format::Svg | Format::Png)) => {
+                let why = format!(
+                    "the format {format} is written only; polygons come as geojson, geojsonl, wkt, wkb or rings"
+                );
+                let usage = from.is_some();
+                return Err(if usage { Failure::Usage(why) } else { Failure::file(&name, why) });
+            }
+            Some(format) if format != Format::Json => format,
+            _ => {
+                bytes = beginning(&mut source).map_err(failed)?;
+                match Format::of_content(&bytes) {
+                    Ok(Content::Polygons(format)) if format.is_streamed() => format,
+                    _ => {
+                        source.read_to_end(&mut bytes).map_err(failed)?;
+                        match Format::of_content(&bytes) {
+                            Ok(Content::Polygons(format)) => format,
+                            Ok(Content::Axes) => return Ok(Self::Axes(Input { name, bytes })),
+                            Err(error) => return Err(Failure::file(&name, error)),
+                        }
+                    }
+                }
+            }
+        };
+        let content = if format.is_streamed() {
+            let source: Source = Box::new(Cursor::new(bytes).chain(source));
+            Features::Stream(RefCell::new(Some(source)))
+        } else {
+            source.read_to_end(&mut bytes).map_err(failed)?;
+            Features::Whole(bytes)
+        };
+        Ok(Self::Polygons(Polygons { name, format, content }))
+    }
+
+    /// The polygons, also those of axis documents if they may be; else that they are none.
+    pub fn polygons(self, documents: Documents) -> Result<Polygons, Failure> {
+        match self {
+            Self::Polygons(polygons) => Ok(polygons),
+            Self::Axes(Input { name, bytes }) if documents == Documents::AsPolygons => {
+                Ok(Polygons { name, format: Format::Json, content: Features::Axes(bytes) })
+            }
+            Self::Axes(input) => Err(input.wrong("is an axis document; polygons are needed here")),
+        }
+    }
 }
 
-/// The format of the polygons in an input: as asked for, by the extension, else by the content.
-pub fn polygon_format(input: &Input, path: &Path, from: Option<Format>) -> Result<Format, Failure> {
-    match from.or_else(|| Format::from_path(path).ok()) {
-        Some(Format::Json) | None => match Format::of_content(input.bytes()) {
-            Ok(Content::Polygons(format)) => Ok(format),
-            Ok(Content::Axes) => Err(input.wrong("is an axis document; polygons are needed here")),
-            Err(error) => Err(input.wrong(error)),
-        },
-        Some(format @ (Format::Csv | Format::Svg | Format::Png)) => {
-            let why = format!(
-                "the format {format} is written only; polygons come as geojson, geojsonl, wkt, wkb or rings"
-            );
-            Err(if from.is_some() { Failure::Usage(why) } else { input.wrong(why) })
-        }
-        Some(format) => Ok(format),
+impl Polygons {
+    /// The features; those of a stream can be had once.
+    pub fn layer(&self) -> Result<Layer<'_>, Failure> {
+        let layer = match &self.content {
+            Features::Whole(bytes) => medial_io::read(self.format, bytes),
+            Features::Axes(bytes) => medial_io::text(bytes).map(axis_document::polygons),
+            Features::Stream(source) => {
+                let source = source.take().unwrap_or_else(|| Box::new(io::empty()));
+                medial_io::read_stream(self.format, source)
+            }
+        };
+        layer.map_err(|error| Failure::file(&self.name, error))
     }
+}
+
+fn open(path: &Path) -> io::Result<Source> {
+    Ok(if path.as_os_str() == "-" {
+        Box::new(BufReader::new(io::stdin()))
+    } else {
+        Box::new(BufReader::new(File::open(path)?))
+    })
+}
+
+/// So many lines of a source that two hold something, if there are as many: the second one tells lines
+/// of JSON from a single document.
+fn beginning(source: &mut Source) -> io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    let mut n_lines = 0;
+    while n_lines < 2 {
+        let start = bytes.len();
+        if source.read_until(b'\n', &mut bytes)? == 0 {
+            break;
+        }
+        n_lines += usize::from(!bytes[start..].trim_ascii().is_empty());
+    }
+    Ok(bytes)
+}
+
+fn unreadable(name: &str, error: &io::Error) -> Failure {
+    Failure::file(name, format_args!("cannot read: {}", plain(error)))
+}
+
+fn name(path: &Path) -> String {
+    if path.as_os_str() == "-" { "<stdin>".to_owned() } else { path.display().to_string() }
 }

@@ -32,6 +32,9 @@ fn run() -> Result<Status, Failure> {
     match args::parse()? {
         Command::Axis(args) => commands::axis::run(&args),
         Command::Prune(args) => commands::axis::prune(&args),
+        Command::Branches(args) => commands::branches::run(&args),
+        Command::Smooth(args) => commands::smooth::run(&args),
+        Command::Reconstruct(args) => commands::reconstruct::run(&args),
         Command::Centerline(args) => commands::centerline::run(&args),
         Command::Voronoi(args) => commands::voronoi::run(&args),
         Command::Locate(args) => commands::locate::run(&args),

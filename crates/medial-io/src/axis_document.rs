@@ -4,13 +4,15 @@
 
 use crate::json::parse;
 use crate::text::{lines, offset, syntax_at};
-use crate::{Error, Feature, Json};
+use crate::{Error, Feature, FeatureError, Json, Layer};
 use medial::axis::{Accuracy, CurveKind, Engine, MedialAxis, Path, Side, Site};
 use medial::axis::{SiteKind, UnknownName};
 use medial::geom::Point;
+use medial::ops::{Significance, polygons_of};
 use serde::{Deserialize, Serialize};
 use serde_json::value::RawValue;
 use std::borrow::Cow;
+use std::collections::BTreeMap;
 use std::str::FromStr;
 
 /// The JSON Schema of a document.
@@ -92,6 +94,9 @@ struct PathRecord<'a> {
     governors: [u32; 2],
     #[serde(borrow)]
     curve: Cow<'a, str>,
+    /// For each measure the largest value, that at the start and that at the end.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty", skip_deserializing)]
+    measures: BTreeMap<&'static str, [Option<f64>; 3]>,
 }
 
 #[expect(clippy::trivially_copy_pass_by_ref, reason = "the signature serde asks for")]
@@ -99,9 +104,9 @@ fn is_zero(part: &u32) -> bool {
     *part == 0
 }
 
-/// The document of one axis, with its line end.
+/// The document of one axis, with the values that were measured and its line end.
 #[must_use]
-pub fn write(source: &Feature, axis: &MedialAxis) -> String {
+pub fn write(source: &Feature, axis: &MedialAxis, measured: &[Significance]) -> String {
     let document = Document {
         kind: "MedialAxis".into(),
         version: 1,
@@ -128,11 +133,16 @@ pub fn write(source: &Feature, axis: &MedialAxis) -> String {
         paths: axis
             .paths()
             .iter()
-            .map(|path| PathRecord {
+            .enumerate()
+            .map(|(k, path)| PathRecord {
                 from: path.from,
                 to: path.to,
                 governors: [path.left, path.right],
                 curve: axis.curve_kind(&path).name().into(),
+                measures: measured
+                    .iter()
+                    .map(|m| (m.measure.name(), m.paths[k].values()))
+                    .collect(),
             })
             .collect(),
     };
@@ -164,6 +174,42 @@ pub(crate) fn site_record(site: &Site) -> SiteRecord<'static> {
 /// Reads every document of a text, a line each.
 pub fn read(text: &str) -> impl Iterator<Item = Result<AxisDocument, Error>> {
     lines(text).map(move |line| read_line(text, line))
+}
+
+/// The polygons of the interior axes of a text, which must be complete and exact. Exterior axes are left
+/// out, as `both` sides write the interior of the same feature.
+#[must_use]
+pub fn polygons(text: &str) -> Layer<'_> {
+    let mut next = 0;
+    let feature = move |document: Result<AxisDocument, Error>| {
+        let (feature, id, axis) = match document {
+            Ok(AxisDocument { axis, .. }) if axis.side == Side::Exterior => return None,
+            Ok(AxisDocument { feature, id, axis }) => (feature, id, axis),
+            Err(error) => {
+                let feature =
+                    if let Error::Document { feature, .. } = error { feature } else { next };
+                next = feature + 1;
+                return Some(Err(FeatureError { feature, id: None, error }));
+            }
+        };
+        next = feature + 1;
+        Some(match polygons_of(&axis) {
+            Ok(polygons) => Ok(Feature {
+                index: feature,
+                id,
+                polygons,
+                geometry: "an axis".to_owned(),
+                polygonal: true,
+                ..Feature::default()
+            }),
+            Err(error) => {
+                let (place, why) = ("axis".to_owned(), error.to_string());
+                let error = Error::Value { place, why };
+                Err(FeatureError { feature, id, error })
+            }
+        })
+    };
+    Layer::new(read(text).filter_map(feature))
 }
 
 fn read_line(text: &str, line: &str) -> Result<AxisDocument, Error> {

@@ -2,34 +2,42 @@
 //! writes and reads it.
 
 use crate::number::push_shortest;
-use crate::path::{PathRecord, records};
+use crate::path::{PathRecord, measure_columns, records};
 use crate::wkt::line_string;
 use crate::{Drawing, Feature};
 use medial::axis::MedialAxis;
+use medial::ops::{Measure, Significance};
 use std::fmt::{Display, Write as _};
 
 const PLACE: [&str; 10] =
     ["WKT", "feature", "id", "path", "from", "to", "x_start", "y_start", "x_end", "y_end"];
 
-/// The row of column names.
+/// The row of column names, with those of measures.
 #[must_use]
-pub fn header(drawing: Drawing) -> String {
+pub fn header(measures: &[Measure], drawing: Drawing) -> String {
     let mut table = Table::new();
     let side = drawing.side.then_some("side");
     for name in PLACE.into_iter().chain(["engine"]).chain(side).chain(PathRecord::COLUMNS) {
         table.field(|out| out.push_str(name));
     }
+    for &measure in measures {
+        let measured = Significance { measure, paths: Vec::new() };
+        measure_columns(&measured).iter().for_each(|name| table.field(|out| out.push_str(name)));
+    }
     table.end_row();
     table.text()
 }
 
-/// The rows of one axis.
+/// The rows of one axis, with the values that were measured.
 #[must_use]
-pub fn rows(source: &Feature, axis: &MedialAxis, drawing: Drawing) -> String {
+pub fn rows(
+    source: &Feature,
+    axis: &MedialAxis,
+    measured: &[Significance],
+    drawing: Drawing,
+) -> String {
     let tolerance = drawing.tolerance(axis);
-    let id = source.id.as_ref().map_or("", |id| id.get());
-    // A text is written without the quotes JSON puts around it.
-    let id = serde_json::from_str::<String>(id).unwrap_or_else(|_| id.to_owned());
+    let id = id_of(source);
     let mut table = Table::new();
     for (k, record) in records(axis).enumerate() {
         let PathRecord { path, curve, ends } = record;
@@ -54,24 +62,33 @@ pub fn rows(source: &Feature, axis: &MedialAxis, drawing: Drawing) -> String {
         ends.into_iter().for_each(|end| table.field(|out| out.push_str(end.kind.name())));
         table.whole(path.left);
         table.whole(path.right);
+        for value in measured.iter().flat_map(|measured| measured.paths[k].values()) {
+            table.field(|out| value.into_iter().for_each(|value| push_shortest(out, value)));
+        }
         table.end_row();
     }
     table.text()
 }
 
+/// The identifier of a feature; a text without the quotes that JSON puts around it.
+pub(crate) fn id_of(source: &Feature) -> String {
+    let id = source.id.as_ref().map_or("", |id| id.get());
+    serde_json::from_str::<String>(id).unwrap_or_else(|_| id.to_owned())
+}
+
 /// A table that is being written.
-struct Table {
+pub(crate) struct Table {
     writer: ::csv::Writer<Vec<u8>>,
     /// The field being written.
     field: String,
 }
 
 impl Table {
-    fn new() -> Self {
+    pub fn new() -> Self {
         Self { writer: ::csv::Writer::from_writer(Vec::new()), field: String::new() }
     }
 
-    fn field(&mut self, write: impl FnOnce(&mut String)) {
+    pub fn field(&mut self, write: impl FnOnce(&mut String)) {
         self.field.clear();
         write(&mut self.field);
         // Writing to memory does not fail.
@@ -82,18 +99,18 @@ impl Table {
         self.field(|out| push_shortest(out, value));
     }
 
-    fn whole(&mut self, value: impl Display) {
+    pub fn whole(&mut self, value: impl Display) {
         self.field(|out| {
             let _ = write!(out, "{value}");
         });
     }
 
-    fn end_row(&mut self) {
+    pub fn end_row(&mut self) {
         // Rows of unequal length fail; all have as many fields.
         let _ = self.writer.write_record(None::<&[u8]>);
     }
 
-    fn text(self) -> String {
+    pub fn text(self) -> String {
         let bytes = self.writer.into_inner().ok();
         bytes.and_then(|bytes| String::from_utf8(bytes).ok()).unwrap_or_default()
     }
@@ -108,8 +125,8 @@ mod tests {
     fn rows_have_as_many_fields_as_the_header() {
         let id = serde_json::value::RawValue::from_string("\"a, \\\"b\\\"\"".to_owned()).ok();
         let source = Feature { index: 7, id, ..Feature::default() };
-        let text =
-            header(Drawing::default()) + &rows(&source, &samples::rectangle(), Drawing::default());
+        let text = header(&[], Drawing::default())
+            + &rows(&source, &samples::rectangle(), &[], Drawing::default());
         let mut reader = ::csv::Reader::from_reader(text.as_bytes());
         let names = reader.headers().unwrap().clone();
         let records: Vec<_> = reader.records().map(Result::unwrap).collect();

@@ -20,6 +20,12 @@ pub enum Error {
         /// Line, from 1.
         line: usize,
     },
+    /// Reading broke off.
+    #[error("{source}")]
+    Interrupted {
+        /// What the system said.
+        source: std::io::Error,
+    },
     /// Nothing but white space.
     #[error("the input is empty")]
     Empty,
@@ -56,6 +62,17 @@ pub enum Error {
         /// What the renderer said.
         why: String,
     },
+}
+
+impl Error {
+    /// The same in a text that is behind so many lines.
+    pub(crate) fn after(self, lines: usize) -> Self {
+        match self {
+            Self::Syntax { line, column, why } => Self::Syntax { line: line + lines, column, why },
+            Self::NotUtf8 { line } => Self::NotUtf8 { line: line + lines },
+            other => other,
+        }
+    }
 }
 
 /// One feature that could not be read; the others still can.

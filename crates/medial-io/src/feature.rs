@@ -1,4 +1,4 @@
-use crate::FeatureError;
+use crate::{Error, FeatureError};
 use medial::geom::Point;
 use serde_json::value::RawValue;
 
@@ -53,19 +53,52 @@ pub struct Part<'a>(State<'a>);
 
 enum State<'a> {
     Read(Box<Result<Feature, FeatureError>>),
-    Unread { text: &'a str, part: &'a str, index: usize, read: Reading },
+    Unread {
+        text: &'a str,
+        part: &'a str,
+        index: usize,
+        read: Reading,
+    },
+    /// A text of its own, behind so many lines of the input.
+    Alone {
+        text: String,
+        before: usize,
+        index: usize,
+        read: fn(&str, usize) -> Result<Feature, FeatureError>,
+    },
 }
 
 /// Reads `part`, a slice of `text`, as the feature with a number.
 type Reading = fn(text: &str, part: &str, index: usize) -> Result<Feature, FeatureError>;
 
 impl Part<'_> {
+    /// A feature that is read already.
+    pub(crate) fn of_read(read: Result<Feature, FeatureError>) -> Self {
+        Self(State::Read(Box::new(read)))
+    }
+
+    /// The feature with a number that cannot be read.
+    pub(crate) fn broken(index: usize, error: Error) -> Self {
+        Self::of_read(Err(FeatureError { feature: index, id: None, error }))
+    }
+
+    /// The feature in a text that is behind so many lines of the input.
+    pub(crate) fn of_text(
+        text: String,
+        before: usize,
+        index: usize,
+        read: fn(&str, usize) -> Result<Feature, FeatureError>,
+    ) -> Self {
+        Self(State::Alone { text, before, index, read })
+    }
+
     /// About as many bytes as the feature has as text.
     #[must_use]
     pub fn size(&self) -> usize {
         match &self.0 {
             State::Read(read) => read.as_ref().as_ref().map_or(0, Feature::size),
             State::Unread { part, .. } => part.len(),
+            State::Alone { text, .. } => text.len(),
         }
     }
 
@@ -77,6 +110,12 @@ impl Part<'_> {
         match self.0 {
             State::Read(read) => *read,
             State::Unread { text, part, index, read } => read(text, part, index),
+            State::Alone { text, before, index, read } => {
+                read(&text, index).map_err(|mut error| {
+                    error.error = error.error.after(before);
+                    error
+                })
+            }
         }
     }
 }
@@ -86,8 +125,7 @@ impl<'a> Layer<'a> {
     pub(crate) fn new(
         features: impl Iterator<Item = Result<Feature, FeatureError>> + Send + 'a,
     ) -> Self {
-        let parts = features.map(|read| Part(State::Read(Box::new(read))));
-        Self { crs: None, len: None, parts: Box::new(parts) }
+        Self { crs: None, len: None, parts: Box::new(features.map(Part::of_read)) }
     }
 
     /// A layer of the features in these slices of `text`, in their order.

@@ -57,6 +57,12 @@ impl Format {
         NAMES.iter().find(|(format, ..)| *format == self).map_or("", |(_, name, _)| name)
     }
 
+    /// Whether its features are read one by one, as they arrive.
+    #[must_use]
+    pub fn is_streamed(self) -> bool {
+        matches!(self, Self::GeoJsonLines | Self::Wkt)
+    }
+
     /// The format a file's extension stands for; letter case does not matter.
     ///
     /// # Errors

@@ -27,6 +27,7 @@ mod format;
 mod json;
 mod number;
 mod path;
+mod stream;
 mod text;
 
 #[cfg(test)]
@@ -35,8 +36,10 @@ mod samples;
 pub mod axis_document;
 pub mod csv;
 pub mod geojson;
+pub mod limb_document;
 pub mod location_document;
 pub mod png;
+pub mod record;
 pub mod rings;
 pub mod svg;
 pub mod voronoi_document;
@@ -47,6 +50,7 @@ pub use error::{Error, FeatureError};
 pub use feature::{Feature, Json, Layer, Note, Part, Polygons};
 pub use format::{Content, Format, UnknownFormat};
 pub use path::{Drawing, default_tolerance, domain_tolerance};
+pub use stream::read_stream;
 pub use text::text;
 
 /// Reads the features of the bytes of a format that holds polygons.

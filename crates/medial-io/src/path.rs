@@ -1,6 +1,7 @@
 use medial::axis::{Curve, CurveKind, Keypoint, MedialAxis, Path};
 use medial::domain::Domain;
 use medial::geom::{Point, Rect};
+use medial::ops::{Measure, Significance};
 
 /// How axes become lines.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -81,6 +82,17 @@ impl PathRecord {
         "governor_left",
         "governor_right",
     ];
+}
+
+/// The columns of a measure: the largest value on a path, and those at its start and its end.
+pub(crate) fn measure_columns(measured: &Significance) -> [String; 3] {
+    let name = match measured.measure {
+        // Paths have a length and radii of their own, which come from nothing behind them.
+        Measure::Length => "branch_length",
+        Measure::Radius => "running_radius",
+        measure => measure.name(),
+    };
+    ["", "_start", "_end"].map(|end| format!("{name}{end}"))
 }
 
 /// A record for every path, in their order.

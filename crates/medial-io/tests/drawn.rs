@@ -136,7 +136,7 @@ fn an_axis_that_is_written_has_a_line_for_each_path() {
     let (feature, axis) = axes(&fixtures().join("river.geojson"), Format::GeoJson).remove(0);
     let drawing = Drawing { keypoints: true, ..Drawing::default() };
     let mut text = Vec::new();
-    geojson::feature_lines(&mut text, &feature, &axis, drawing);
+    geojson::feature_lines(&mut text, &feature, &axis, &[], drawing);
     let text = String::from_utf8(text).unwrap();
     assert_eq!(text.matches("\"LineString\"").count(), axis.paths().len());
     assert_eq!(text.matches("\"Point\"").count(), axis.keypoints().len());

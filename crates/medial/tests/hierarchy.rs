@@ -34,6 +34,7 @@ fn the_values_on_a_rectangle_are_those_of_the_formulas() {
     for (measure, on_corner, at_spine, at_root) in [
         (Measure::Excess, [0.0, bevel], bevel, far - 1.0),
         (Measure::RelativeExcess, [bevel, bevel], bevel, far - 1.0),
+        (Measure::Prominence, [bevel, bevel], bevel, far - 1.0),
         (Measure::Potential, [0.0, 2.0], 4.0, 8.0),
         (Measure::Chord, [0.0, 2.0 - SQRT_2], 2.0, 6.0),
         (Measure::Circularity, [0.0, 2.0 - PI / 2.0], 4.0 - PI, 8.0 - PI),
@@ -121,7 +122,9 @@ fn cycles_never_burn() {
         assert_eq!((verdict.counts.cycles, verdict.counts.leaves), (1, 0), "{measure}");
         let finite = |values: &medial::ops::Span| values.most.is_finite();
         let values = hierarchy.significance(measure).paths;
-        assert_eq!(values.iter().filter(|v| finite(v)).count(), 4, "{measure}");
+        // No larger disk swallows the largest ones, which are those behind the corners.
+        let n_finite = if measure == Measure::Scale { 0 } else { 4 };
+        assert_eq!(values.iter().filter(|v| finite(v)).count(), n_finite, "{measure}");
     }
 }
 

@@ -1,14 +1,13 @@
-use super::features::{Run, layer};
+use super::features::Run;
 use super::sink::{Sink, draw, encode, title};
 use crate::args::{AxisArgs, Height, Region, Sides};
 use crate::failure::{Failure, Status};
-use crate::input::Input;
 use crate::report::Entry;
 use crate::timings::timed;
 use medial::axis::{Engine, MedialAxis, Side};
 use medial::domain::Domain;
 use medial::engine::{self, EngineError, both_sides, exterior, interior};
-use medial::ops::Hierarchy;
+use medial::ops::{Hierarchy, Significance};
 use medial_io::svg::Options;
 use medial_io::{Drawing, Format};
 use std::io::IsTerminal as _;
@@ -35,15 +34,16 @@ pub fn run(args: &AxisArgs) -> Result<Status, Failure> {
         keypoints: args.keypoints,
         side: args.region.side != Sides::Interior,
     };
-    let input = timed(&mut run.stages.read, || Input::read(&args.input))?;
-    let layer = timed(&mut run.stages.read, || layer(&input, &args.input, &args.common))?;
+    let input = run.open(&args.input)?;
+    let layer = timed(&mut run.stages.read, || input.layer())?;
     let picture = Options {
         title: title("Medial axis", &args.input),
         draw: args.draw.clone(),
         ..Options::default()
     };
     let crs = layer.crs.clone();
-    let mut sink = Sink::create(args.output.as_deref(), format, drawing, crs)?;
+    let output = args.output.as_deref();
+    let mut sink = Sink::of_measured(output, format, drawing, &args.measures, crs)?;
     let mut scenes = Vec::new();
     let mut write = std::time::Duration::ZERO;
     let (at_once, threads) = run.threads(&layer);
@@ -54,18 +54,15 @@ pub fn run(args: &AxisArgs) -> Result<Status, Failure> {
         at_once,
         |feature, domain, stages, bytes| {
             // All that is asked of a feature, or nothing.
-            let mut axes =
+            let axes =
                 timed(&mut stages.engine, || trace(args.engine, &args.region, domain, &options))?;
-            if let Some((measure, value)) = args.pruning.threshold() {
-                let pruned = |axis: &MedialAxis| {
-                    let hierarchy =
-                        Hierarchy::new(domain, axis).map_err(|error| Entry::internal(&error))?;
-                    Ok(hierarchy.pruned(measure, value).axis)
-                };
-                axes = timed(&mut stages.operations, || {
-                    axes.iter().map(pruned).collect::<Result<_, _>>()
-                })?;
-            }
+            let axes = if args.pruning.threshold().is_none() && args.measures.is_empty() {
+                axes.into_iter().map(|axis| (axis, Vec::new())).collect()
+            } else {
+                timed(&mut stages.operations, || {
+                    axes.iter().map(|axis| measured(args, domain, axis)).collect::<Result<_, _>>()
+                })?
+            };
             Ok(timed(&mut stages.write, || encode(format, drawing, feature, domain, axes, bytes)))
         },
         |drawn| scenes.extend(drawn),
@@ -77,6 +74,24 @@ pub fn run(args: &AxisArgs) -> Result<Status, Failure> {
     run.stages.write += write;
     run.finish()?;
     Ok(status)
+}
+
+/// What is left of an axis, with what was asked to be measured.
+fn measured(
+    args: &AxisArgs,
+    domain: &Domain,
+    axis: &MedialAxis,
+) -> Result<(MedialAxis, Vec<Significance>), Entry> {
+    let hierarchy = Hierarchy::new(domain, axis).map_err(|error| Entry::internal(&error))?;
+    let measures = args.measures.iter();
+    Ok(match args.pruning.threshold() {
+        Some((measure, value)) => {
+            let pruned = hierarchy.pruned(measure, value);
+            let measured = measures.map(|&m| hierarchy.significance_of(m, &pruned)).collect();
+            (pruned.axis, measured)
+        }
+        None => (axis.clone(), measures.map(|&measure| hierarchy.significance(measure)).collect()),
+    })
 }
 
 /// The axes of a feature by an engine, one for each side that is asked for, or why it is refused.
@@ -140,6 +155,13 @@ fn output_format(args: &AxisArgs) -> Result<Format, Failure> {
     }
     if args.keypoints && format == Format::Csv {
         return usage("--keypoints is not for csv, which has a row for each path".to_owned());
+    }
+    if !args.measures.is_empty()
+        && !matches!(format, Format::GeoJson | Format::GeoJsonLines | Format::Csv | Format::Json)
+    {
+        return usage(format!(
+            "--measures is for geojson, geojsonl, csv and json, not for {format}"
+        ));
     }
     let binary = matches!(format, Format::Png | Format::Wkb);
     if binary && file.is_none() && std::io::stdout().is_terminal() {

@@ -1,4 +1,4 @@
-use super::features::{Run, layer};
+use super::features::Run;
 use crate::args::{CheckArgs, Form};
 use crate::failure::{Failure, Status};
 use crate::input::Input;
@@ -15,10 +15,10 @@ pub fn run(args: &CheckArgs) -> Result<Status, Failure> {
         return Err(Failure::Usage(why.to_owned()));
     }
     let mut run = Run::new(&args.common)?;
-    let (input, axes) =
-        timed(&mut run.stages.read, || Ok((Input::read(&args.domain)?, Input::read(&args.axis)?)))?;
+    let axes = timed(&mut run.stages.read, || Input::read(&args.axis))?;
     let mut documents = timed(&mut run.stages.read, || read_documents(&axes))?;
-    let layer = timed(&mut run.stages.read, || layer(&input, &args.domain, &args.common))?;
+    let input = run.open(&args.domain)?;
+    let layer = timed(&mut run.stages.read, || input.layer())?;
     let mut output = Output::create(args.output.as_deref())?;
     let (at_once, _) = run.threads(&layer);
     let told = |judged: &Judged| match args.to {

@@ -1,8 +1,7 @@
-use super::features::{Run, layer};
+use super::features::Run;
 use crate::args::{CompareArgs, Rows};
 use crate::comparison::{Comparison, Totals, csv_header};
 use crate::failure::{Failure, Status};
-use crate::input::Input;
 use crate::output::Output;
 use crate::timings::timed;
 use medial::engine::Options;
@@ -13,8 +12,8 @@ pub fn run(args: &CompareArgs) -> Result<Status, Failure> {
     args.region.check()?;
     let mut run = Run::new(&args.common)?;
     let rows = rows(args);
-    let input = timed(&mut run.stages.read, || Input::read(&args.input))?;
-    let layer = timed(&mut run.stages.read, || layer(&input, &args.input, &args.common))?;
+    let input = run.open(&args.input)?;
+    let layer = timed(&mut run.stages.read, || input.layer())?;
     let mut output = Output::create(args.output.as_deref())?;
     let threads = args.common.threads.unwrap_or(NonZeroUsize::MIN);
     let options = Options { threads, ..Options::default() };

@@ -1,16 +1,16 @@
 //! What every command does with the features of its input.
 
 use crate::args::{Common, OnError};
-use crate::failure::{Failure, Status};
+use crate::failure::{Failure, Status, plain};
 use crate::guard::guarded;
-use crate::input::Input;
+use crate::input::{Documents, Opened, Polygons};
 use crate::output::Output;
 use crate::parallel::ordered;
 use crate::progress::Progress;
 use crate::report::{self, Entry, FeatureReport, Report};
 use crate::timings::{self, Stages, timed};
 use medial::domain::{Domain, Options};
-use medial_io::{Feature, FeatureError, Json, Layer, Part};
+use medial_io::{Error, Feature, FeatureError, Json, Layer, Part};
 use std::num::NonZeroUsize;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
@@ -34,6 +34,8 @@ struct Outcome<R> {
     id: Option<Json>,
     warnings: Vec<String>,
     entries: Vec<Entry>,
+    /// Why the input ends here, though it should not.
+    broken: Option<String>,
     /// `None` if it was refused; then the last entry says why.
     result: Option<R>,
     /// Where its bytes end among those of its batch; they begin where the feature before ends.
@@ -56,6 +58,21 @@ impl<'a> Run<'a> {
         })
     }
 
+    /// Opens an input of polygons.
+    pub fn open(&mut self, path: &Path) -> Result<Polygons, Failure> {
+        self.open_with(path, Documents::Refused)
+    }
+
+    /// The same where axis documents may stand for polygons.
+    pub fn open_with(&mut self, path: &Path, documents: Documents) -> Result<Polygons, Failure> {
+        self.opened(path)?.polygons(documents)
+    }
+
+    /// Opens an input of polygons or axes.
+    pub fn opened(&mut self, path: &Path) -> Result<Opened, Failure> {
+        timed(&mut self.stages.read, || Opened::new(path, self.common.from))
+    }
+
     /// Calls `work` for each valid feature, `at_once` at a time, then `done` with the results and
     /// `write` with the bytes that `work` appended, both in order; tells and reports what is left
     /// out.
@@ -63,7 +80,7 @@ impl<'a> Run<'a> {
     /// The result is whether all went well; a stop at a bad feature is [`Status::NoResult`].
     pub fn each<R: Send>(
         &mut self,
-        input: &Input,
+        input: &Polygons,
         layer: Layer<'_>,
         at_once: NonZeroUsize,
         work: impl Fn(&Feature, &Domain, &mut Stages, &mut Vec<u8>) -> Result<R, Entry> + Sync,
@@ -89,6 +106,10 @@ impl<'a> Run<'a> {
                 let mut end = 0;
                 let mut stopped = false;
                 for outcome in outcomes {
+                    if let Some(why) = outcome.broken {
+                        let why = format_args!("cannot read: {why}");
+                        return ControlFlow::Break(Some(Failure::file(&input.name, why)));
+                    }
                     self.stages.add(outcome.stages);
                     progress.step();
                     let last = outcome.end;
@@ -192,6 +213,7 @@ fn process<R>(
         id: None,
         warnings: Vec::new(),
         entries: Vec::new(),
+        broken: None,
         result: None,
         end: bytes.len(),
         stages: Stages::default(),
@@ -201,6 +223,10 @@ fn process<R>(
         Err(FeatureError { feature, id, error }) => {
             outcome.index = feature;
             outcome.id = id;
+            if let Error::Interrupted { source } = error {
+                outcome.broken = Some(plain(&source));
+                return outcome;
+            }
             outcome.entries.push(Entry::refused("malformed", error.to_string()));
             return outcome;
         }
@@ -257,7 +283,7 @@ fn valid(feature: &Feature, common: &Common, time: &mut Duration) -> Result<Doma
 /// Prints and reports what happened to a feature; gives its result.
 fn tell<R>(
     outcome: Outcome<R>,
-    input: &Input,
+    input: &Polygons,
     progress: &Progress,
     report: &mut Report,
 ) -> Option<R> {
@@ -280,7 +306,7 @@ fn tell<R>(
     result
 }
 
-fn summary(report: &Report, input: &Input, progress: &Progress) -> Status {
+fn summary(report: &Report, input: &Polygons, progress: &Progress) -> Status {
     let Report { n_features, left_out, .. } = *report;
     if n_features == 0 {
         progress.warning(&format!("{}: there are no features", input.name));
@@ -290,10 +316,4 @@ fn summary(report: &Report, input: &Input, progress: &Progress) -> Status {
     }
     progress.warning(&format!("{}: {left_out} of {n_features} features left out", input.name));
     if report.done == 0 { Status::NoResult } else { Status::LeftOut }
-}
-
-/// Reads the layer of polygons of an input.
-pub fn layer<'a>(input: &'a Input, path: &Path, common: &Common) -> Result<Layer<'a>, Failure> {
-    let format = crate::input::polygon_format(input, path, common.from)?;
-    medial_io::read(format, input.bytes()).map_err(|error| input.wrong(error))
 }

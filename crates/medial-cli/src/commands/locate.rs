@@ -1,7 +1,6 @@
-use super::features::{Run, layer};
+use super::features::Run;
 use crate::args::LocateArgs;
 use crate::failure::{Failure, Status};
-use crate::input::Input;
 use crate::output::Output;
 use crate::report::Entry;
 use crate::timings::timed;
@@ -14,8 +13,8 @@ use std::time::Duration;
 pub fn run(args: &LocateArgs) -> Result<Status, Failure> {
     let point = Point::new(args.x, args.y);
     let mut run = Run::new(&args.common)?;
-    let input = timed(&mut run.stages.read, || Input::read(&args.input))?;
-    let layer = timed(&mut run.stages.read, || layer(&input, &args.input, &args.common))?;
+    let input = run.open(&args.input)?;
+    let layer = timed(&mut run.stages.read, || input.layer())?;
     let mut output = Output::create(args.output.as_deref())?;
     let mut write = Duration::ZERO;
     let (at_once, _) = run.threads(&layer);

@@ -1,8 +1,12 @@
 pub mod axis;
+pub mod branches;
 pub mod centerline;
 pub mod check;
 pub mod compare;
 mod features;
 pub mod locate;
+pub mod reconstruct;
+mod records;
 mod sink;
+pub mod smooth;
 pub mod voronoi;

@@ -2,10 +2,11 @@ use crate::failure::Failure;
 use crate::output::Output;
 use medial::axis::{MedialAxis, Side};
 use medial::domain::Domain;
+use medial::ops::{Measure, Significance};
 use medial_io::svg::{Options, Scene};
 use medial_io::{
-    Drawing, Feature, Format, Json, axis_document, csv, domain_tolerance, geojson, png, svg, wkb,
-    wkt,
+    Drawing, Feature, Format, Json, axis_document, csv, domain_tolerance, geojson, png, record,
+    svg, wkb, wkt,
 };
 use std::path::Path;
 
@@ -13,27 +14,28 @@ use std::path::Path;
 pub struct Sink {
     output: Output,
     format: Format,
-    drawing: Drawing,
+    /// The names of the columns, for CSV.
+    head: String,
     crs: Option<Json>,
     begun: bool,
 }
 
-/// Appends the axes of a feature in a format, or gives what to draw of them.
+/// Appends the axes of a feature, each with what was measured, in a format, or gives what to draw of them.
 pub fn encode(
     format: Format,
     drawing: Drawing,
     feature: &Feature,
     domain: &Domain,
-    axes: Vec<MedialAxis>,
+    axes: Vec<(MedialAxis, Vec<Significance>)>,
     bytes: &mut Vec<u8>,
 ) -> Vec<Scene> {
     let mut scenes = Vec::new();
-    for axis in axes {
+    for (axis, measured) in axes {
         let mut drawing = drawing;
         if axis.side == Side::Exterior {
             drawing.tolerance.get_or_insert_with(|| domain_tolerance(domain));
         }
-        let mut scene = encode_one(format, drawing, feature, axis, bytes);
+        let mut scene = encode_one(format, drawing, feature, (axis, &measured), bytes);
         // The boundary once.
         if let (Some(scene), true) = (&mut scene, scenes.is_empty()) {
             scene.boundary = boundary(domain);
@@ -48,20 +50,20 @@ fn encode_one(
     format: Format,
     drawing: Drawing,
     feature: &Feature,
-    axis: MedialAxis,
+    (axis, measured): (MedialAxis, &[Significance]),
     bytes: &mut Vec<u8>,
 ) -> Option<Scene> {
     let text = match format {
         Format::GeoJson => {
-            geojson::features(bytes, feature, &axis, drawing);
+            geojson::features(bytes, feature, &axis, measured, drawing);
             return None;
         }
         Format::GeoJsonLines => {
-            geojson::feature_lines(bytes, feature, &axis, drawing);
+            geojson::feature_lines(bytes, feature, &axis, measured, drawing);
             return None;
         }
         Format::Wkt => wkt::write(&axis, drawing),
-        Format::Csv => csv::rows(feature, &axis, drawing),
+        Format::Csv => csv::rows(feature, &axis, measured, drawing),
         Format::Svg | Format::Png => {
             return Some(Scene { boundary: Vec::new(), axis });
         }
@@ -69,7 +71,7 @@ fn encode_one(
             bytes.extend(wkb::write(&axis, drawing));
             return None;
         }
-        _ => axis_document::write(feature, &axis),
+        _ => axis_document::write(feature, &axis, measured),
     };
     bytes.extend_from_slice(text.as_bytes());
     None
@@ -90,7 +92,30 @@ impl Sink {
         drawing: Drawing,
         crs: Option<Json>,
     ) -> Result<Self, Failure> {
-        Ok(Self { output: Output::create(path)?, format, drawing, crs, begun: false })
+        Self::of_measured(path, format, drawing, &[], crs)
+    }
+
+    /// The same for axes with the values of measures.
+    pub fn of_measured(
+        path: Option<&Path>,
+        format: Format,
+        drawing: Drawing,
+        measures: &[Measure],
+        crs: Option<Json>,
+    ) -> Result<Self, Failure> {
+        let head = csv::header(measures, drawing);
+        Ok(Self { output: Output::create(path)?, format, head, crs, begun: false })
+    }
+
+    /// The same for records with these values.
+    pub fn of_records(
+        path: Option<&Path>,
+        format: Format,
+        columns: &[&str],
+        crs: Option<Json>,
+    ) -> Result<Self, Failure> {
+        let head = record::header(columns);
+        Ok(Self { output: Output::create(path)?, format, head, crs, begun: false })
     }
 
     /// Writes what [`encode`] made of axes that follow one another.
@@ -111,7 +136,7 @@ impl Sink {
         }
         match self.format {
             Format::GeoJson => self.output.write(geojson::header(self.crs.as_ref()).as_bytes()),
-            Format::Csv => self.output.write(csv::header(self.drawing).as_bytes()),
+            Format::Csv => self.output.write(self.head.as_bytes()),
             _ => Ok(()),
         }
     }

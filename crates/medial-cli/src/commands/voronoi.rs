@@ -1,9 +1,8 @@
 use super::axis::{format_of, trace};
-use super::features::{Run, layer};
+use super::features::Run;
 use super::sink::{Sink, title};
 use crate::args::VoronoiArgs;
 use crate::failure::{Failure, Status};
-use crate::input::Input;
 use crate::report::Entry;
 use crate::timings::timed;
 use medial::axis::MedialAxis;
@@ -18,8 +17,8 @@ use std::time::Duration;
 pub fn run(args: &VoronoiArgs) -> Result<Status, Failure> {
     let mut run = Run::new(&args.common)?;
     let format = output_format(args)?;
-    let input = timed(&mut run.stages.read, || Input::read(&args.input))?;
-    let layer = timed(&mut run.stages.read, || layer(&input, &args.input, &args.common))?;
+    let input = run.open(&args.input)?;
+    let layer = timed(&mut run.stages.read, || input.layer())?;
     let mut sink =
         Sink::create(args.output.as_deref(), format, Drawing::default(), layer.crs.clone())?;
     let mut diagrams = Vec::new();

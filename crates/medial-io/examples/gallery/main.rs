@@ -6,6 +6,7 @@
 
 mod both_sides;
 mod bounds;
+mod branches;
 mod lake;
 mod lee;
 mod lee_1_2;
@@ -19,6 +20,7 @@ mod letter;
 mod pruned;
 mod shape;
 mod sheet;
+mod smooth;
 mod style;
 mod voronoi;
 
@@ -57,7 +59,7 @@ const LESSONS: [Lesson; 12] = [
 ];
 
 /// Pictures besides, each in a file of its name.
-const PICTURES: [(&str, Lesson); 11] = [
+const PICTURES: [(&str, Lesson); 13] = [
     ("lee-1-2", lee_1_2::LESSON),
     ("voronoi", voronoi::LESSON),
     ("both-sides", both_sides::LESSON),
@@ -69,6 +71,8 @@ const PICTURES: [(&str, Lesson); 11] = [
     ("letter", letter::LESSON),
     ("lake", lake::LESSON),
     ("pruned", pruned::LESSON),
+    ("branches", branches::LESSON),
+    ("smooth", smooth::LESSON),
 ];
 
 const HEAD: &str = "\

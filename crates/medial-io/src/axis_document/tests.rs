@@ -13,7 +13,7 @@ fn read_one(text: &str) -> Result<AxisDocument, Error> {
 
 fn error(change: impl Fn(&mut Value)) -> String {
     let mut value: Value =
-        serde_json::from_str(&write(&Feature::default(), &samples::l_shape())).unwrap();
+        serde_json::from_str(&write(&Feature::default(), &samples::l_shape(), &[])).unwrap();
     change(&mut value);
     read_one(&value.to_string()).unwrap_err().to_string()
 }
@@ -21,7 +21,7 @@ fn error(change: impl Fn(&mut Value)) -> String {
 #[test]
 fn a_document_reads_back_bit_for_bit() {
     for axis in [samples::rectangle(), samples::l_shape()] {
-        let text = write(&source(), &axis);
+        let text = write(&source(), &axis, &[]);
         assert_eq!(text.matches('\n').count(), 1);
         let document = read_one(&text).unwrap();
         assert_eq!(document.axis, axis);
@@ -32,7 +32,7 @@ fn a_document_reads_back_bit_for_bit() {
 
 #[test]
 fn documents_follow_the_contract() {
-    let text = write(&Feature::default(), &samples::l_shape());
+    let text = write(&Feature::default(), &samples::l_shape(), &[]);
     let value: Value = serde_json::from_str(&text).unwrap();
     assert_eq!(value["type"], "MedialAxis");
     assert_eq!(value["version"], 1);
@@ -61,7 +61,8 @@ fn documents_follow_the_contract() {
 fn documents_satisfy_their_schema() {
     let schema: Value = serde_json::from_str(SCHEMA).unwrap();
     let validator = jsonschema::validator_for(&schema).unwrap();
-    let mut document: Value = serde_json::from_str(&write(&source(), &samples::l_shape())).unwrap();
+    let mut document: Value =
+        serde_json::from_str(&write(&source(), &samples::l_shape(), &[])).unwrap();
     let errors: Vec<_> = validator.iter_errors(&document).map(|e| e.to_string()).collect();
     assert_eq!(errors, [""; 0]);
     // The schema does refuse what is wrong.
@@ -83,7 +84,7 @@ fn a_piece_of_a_split_edge_carries_its_part() {
         Vec::new(),
     )
     .unwrap();
-    let text = write(&Feature::default(), &axis);
+    let text = write(&Feature::default(), &axis, &[]);
     assert!(text.contains(r#""part":2"#) && text.contains(r#""accuracy":{"sampled":0.25}"#));
     assert_eq!(read_one(&text).unwrap().axis, axis);
 }
@@ -113,7 +114,7 @@ fn what_is_wrong_is_named() {
 
 #[test]
 fn broken_lines_name_themselves() {
-    let good = write(&Feature::default(), &samples::rectangle());
+    let good = write(&Feature::default(), &samples::rectangle(), &[]);
     let text = format!("{good}\n{{\"type\": \"MedialAxis\", }}\n");
     let read: Vec<_> = read(&text).collect();
     assert_eq!(read.len(), 2);

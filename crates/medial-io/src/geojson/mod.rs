@@ -7,8 +7,10 @@ mod voronoi;
 mod write;
 
 pub use centerline::{centerline_features, centerline_lines};
+pub(crate) use read::feature;
 pub use read::{read, read_lines};
 pub use voronoi::{voronoi_features, voronoi_lines};
+pub(crate) use write::{COMMON, beginning, number, position};
 pub use write::{FOOTER, SEPARATOR, feature_lines, features, header};
 
 #[cfg(test)]

@@ -65,7 +65,7 @@ pub fn read_lines(text: &str) -> Layer<'_> {
     Layer::of_slices(text, lines(text), feature)
 }
 
-fn feature(text: &str, part: &str, index: usize) -> Result<Feature, FeatureError> {
+pub(crate) fn feature(text: &str, part: &str, index: usize) -> Result<Feature, FeatureError> {
     let mut feature = Feature::numbered(index);
     match read_feature(text, part, &mut feature) {
         Ok(()) => Ok(feature),

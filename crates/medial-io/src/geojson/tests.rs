@@ -28,7 +28,7 @@ fn written(source: &Feature, drawing: Drawing) -> Vec<Value> {
 
 fn features_of(source: &Feature, drawing: Drawing) -> String {
     let mut out = Vec::new();
-    super::features(&mut out, source, &samples::l_shape(), drawing);
+    super::features(&mut out, source, &samples::l_shape(), &[], drawing);
     String::from_utf8(out.split_off(SEPARATOR.len())).unwrap()
 }
 
@@ -223,7 +223,7 @@ fn a_collection_is_valid_json_and_keeps_its_crs() {
 fn a_line_holds_one_feature_whatever_the_source_looked_like() {
     let source = sampled("{\"a\":[1,\n2],\"b\":\"x,\\ny\"}");
     let mut lines = Vec::new();
-    feature_lines(&mut lines, &source, &samples::l_shape(), Drawing::default());
+    feature_lines(&mut lines, &source, &samples::l_shape(), &[], Drawing::default());
     let lines = String::from_utf8(lines).unwrap();
     assert_eq!(lines.lines().count(), 9);
     for line in lines.lines() {

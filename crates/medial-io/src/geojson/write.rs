@@ -1,9 +1,10 @@
 use crate::json::{compact, push_quoted};
 use crate::number::decimal;
-use crate::path::{PathRecord, records};
+use crate::path::{PathRecord, measure_columns, records};
 use crate::{Drawing, Feature, Json};
 use medial::axis::{Engine, MedialAxis};
 use medial::geom::Point;
+use medial::ops::Significance;
 use std::borrow::Cow;
 
 /// The end of a collection.
@@ -28,15 +29,27 @@ pub fn header(crs: Option<&Json>) -> String {
 /// Stands before every feature of a collection but the first.
 pub const SEPARATOR: &[u8] = b",\n";
 
-/// Appends the features of one axis, each behind a [`SEPARATOR`]: paths, then keypoints if asked
-/// for.
-pub fn features(out: &mut Vec<u8>, source: &Feature, axis: &MedialAxis, drawing: Drawing) {
-    write(out, source, axis, drawing, [SEPARATOR, b""]);
+/// Appends the features of one axis, each behind a [`SEPARATOR`]: paths with the values that were
+/// measured, then keypoints if asked for.
+pub fn features(
+    out: &mut Vec<u8>,
+    source: &Feature,
+    axis: &MedialAxis,
+    measured: &[Significance],
+    drawing: Drawing,
+) {
+    write(out, source, axis, measured, drawing, [SEPARATOR, b""]);
 }
 
 /// Appends the same features, each on a line of its own.
-pub fn feature_lines(out: &mut Vec<u8>, source: &Feature, axis: &MedialAxis, drawing: Drawing) {
-    write(out, source, axis, drawing, [b"", b"\n"]);
+pub fn feature_lines(
+    out: &mut Vec<u8>,
+    source: &Feature,
+    axis: &MedialAxis,
+    measured: &[Significance],
+    drawing: Drawing,
+) {
+    write(out, source, axis, measured, drawing, [b"", b"\n"]);
 }
 
 /// Writes each feature between two texts.
@@ -44,11 +57,13 @@ fn write(
     out: &mut Vec<u8>,
     source: &Feature,
     axis: &MedialAxis,
+    measured: &[Significance],
     drawing: Drawing,
     [before, after]: [&[u8]; 2],
 ) {
     let tolerance = drawing.tolerance(axis);
-    let ours = |name: &str| is_ours(name, drawing);
+    let columns: Vec<_> = measured.iter().flat_map(measure_columns).collect();
+    let ours = |name: &str| is_ours(name, drawing) || columns.iter().any(|ours| ours == name);
     let mut common = beginning(source, axis.engine, ours, before);
     if drawing.side {
         common.extend_from_slice(b"\"side\":\"");
@@ -57,9 +72,19 @@ fn write(
     }
     let places = Places::new(axis, drawing);
     out.reserve(axis.paths().len() * (common.len() + PATH_BYTES));
-    for record in records(axis) {
+    for (k, record) in records(axis).enumerate() {
         out.extend_from_slice(&common);
         path_properties(out, &record, &places);
+        let values = measured.iter().flat_map(|measured| measured.paths[k].values());
+        for (name, value) in columns.iter().zip(values) {
+            out.extend_from_slice(b",\"");
+            out.extend_from_slice(name.as_bytes());
+            out.extend_from_slice(b"\":");
+            match value {
+                Some(value) => number(out, value),
+                None => out.extend_from_slice(b"null"),
+            }
+        }
         out.extend_from_slice(b"},\"geometry\":{\"type\":\"LineString\",\"coordinates\":[");
         out.extend_from_slice(places.position(record.path.from));
         out.push(b',');
@@ -170,7 +195,7 @@ impl Places {
 
 /// How every feature of one axis begins, behind `before`: with the properties of the source,
 /// renamed where the name `is_ours`, then `feature`, `source_id` and `engine`. Ends with a comma.
-pub(super) fn beginning(
+pub(crate) fn beginning(
     source: &Feature,
     engine: Engine,
     is_ours: impl Fn(&str) -> bool,
@@ -208,7 +233,7 @@ pub(super) fn beginning(
 }
 
 /// The properties of every feature that [`beginning`] writes.
-pub(super) const COMMON: [&str; 3] = ["feature", "source_id", "engine"];
+pub(crate) const COMMON: [&str; 3] = ["feature", "source_id", "engine"];
 
 fn is_ours(name: &str, drawing: Drawing) -> bool {
     const KEYPOINT: [&str; 5] = ["keypoint", "kind", "radius", "degree", "governors"];
@@ -218,7 +243,7 @@ fn is_ours(name: &str, drawing: Drawing) -> bool {
         || drawing.keypoints && KEYPOINT.contains(&name)
 }
 
-pub(super) fn position(out: &mut Vec<u8>, p: Point, radius: Option<f64>) {
+pub(crate) fn position(out: &mut Vec<u8>, p: Point, radius: Option<f64>) {
     out.push(b'[');
     number(out, p.x);
     out.push(b',');
@@ -230,6 +255,6 @@ pub(super) fn position(out: &mut Vec<u8>, p: Point, radius: Option<f64>) {
     out.push(b']');
 }
 
-pub(super) fn number(out: &mut Vec<u8>, value: f64) {
+pub(crate) fn number(out: &mut Vec<u8>, value: f64) {
     decimal(value, |text| out.extend_from_slice(text.as_bytes()));
 }

@@ -5,6 +5,7 @@ mod read;
 mod write;
 
 pub use read::read;
+pub(crate) use write::shape;
 pub use write::write;
 
 #[cfg(test)]

@@ -8,6 +8,7 @@ mod write;
 pub(crate) use write::line_string;
 
 pub use read::read;
+pub(crate) use write::shape;
 pub use write::{write, write_lines};
 
 #[cfg(test)]

@@ -19,9 +19,10 @@ pub fn read(text: &str) -> Layer<'_> {
         }
         let mut feature = Feature::numbered(index);
         index += 1;
+        let start = scanner.place();
         let result = geometry(&mut scanner, &mut feature, 0);
         Some(result.map(|()| feature).map_err(|error| {
-            scanner.skip_to_next_geometry();
+            scanner.skip_to_next_geometry(start);
             FeatureError { feature: index - 1, id: None, error }
         }))
     }))

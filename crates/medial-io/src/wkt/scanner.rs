@@ -102,9 +102,20 @@ impl<'a> Scanner<'a> {
         Err(self.expected("a number"))
     }
 
-    /// After an error: goes on to the next line that begins with a letter.
-    pub fn skip_to_next_geometry(&mut self) {
+    /// The byte at which it is.
+    pub fn place(&self) -> usize {
+        self.byte
+    }
+
+    /// After an error in the geometry that begins at this byte: goes on to the next line that begins with
+    /// a letter, which may be where it is.
+    pub fn skip_to_next_geometry(&mut self, start: usize) {
+        let line = self.text[..self.byte].rfind('\n').map_or(0, |at| at + 1);
+        let is_blank = self.text[line..self.byte].trim_start_matches([' ', '\t']).is_empty();
         let rest = &self.text[self.byte..];
+        if line > start && is_blank && rest.starts_with(char::is_alphabetic) {
+            return;
+        }
         let next = rest.match_indices('\n').map(|(at, _)| at + 1).find(|&at| {
             rest[at..].trim_start_matches([' ', '\t']).starts_with(|c: char| c.is_alphabetic())
         });

@@ -1,6 +1,7 @@
 use crate::Drawing;
 use crate::number::push_shortest;
 use crate::path::records;
+use crate::record::Shape;
 use medial::axis::{Curve, MedialAxis};
 use medial::geom::Point;
 
@@ -40,6 +41,29 @@ pub fn write_lines(lines: &[Vec<(Point, f64)>], radius_as_z: bool) -> String {
     });
     out.push('\n');
     out
+}
+
+/// A shape, without a line end.
+pub(crate) fn shape(out: &mut String, shape: &Shape) {
+    let ring = |out: &mut String, ring: &Vec<Point>| {
+        group(out, ring.iter().chain(ring.first()), |out, &p| point(out, p, None));
+    };
+    match shape {
+        Shape::Line(points) => {
+            out.push_str("LINESTRING ");
+            group(out, points, |out, &p| point(out, p, None));
+        }
+        Shape::Polygons(polygons) => match &polygons[..] {
+            [polygon] => {
+                out.push_str("POLYGON ");
+                group(out, polygon, ring);
+            }
+            polygons => {
+                out.push_str("MULTIPOLYGON ");
+                group(out, polygons, |out, polygon| group(out, polygon, ring));
+            }
+        },
+    }
 }
 
 /// About as many bytes as a line takes.

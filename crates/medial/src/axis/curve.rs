@@ -239,6 +239,66 @@ impl Curve {
         }
     }
 
+    /// The mean radius along the length of the curve; between two radii that differ only by rounding it is
+    /// their mean.
+    ///
+    /// ```
+    /// use medial::axis::{Curve, Site};
+    /// use medial::geom::Point;
+    /// let walls = [Site::edge(Point::new(0.0, 0.0), Point::new(9.0, 0.0)), Site::edge(Point::new(9.0, 9.0), Point::new(0.0, 0.0))];
+    /// let curve = Curve::new(&walls[1], &walls[0], (Point::new(0.0, 0.0), 0.0), (Point::new(5.0, 2.0), 2.0));
+    /// assert_eq!(curve.radius_mean(), 1.0);
+    /// ```
+    #[must_use]
+    pub fn radius_mean(&self) -> f64 {
+        /// Pieces of Simpson's rule: the integrand is smooth, and the last digits do not matter.
+        const PIECES: u32 = 64;
+        if self.form == Form::Linear {
+            return 0.5 * (self.radius_from + self.radius_to);
+        }
+        let at = |k: u32| f64::from(k) / f64::from(PIECES);
+        let (mut sum, mut length) = (0.0, 0.0);
+        for k in 0..PIECES {
+            let piece = self.piece(at(k), at(k + 1));
+            let middle = piece.radius_at(0.5);
+            let mean = (piece.radius_from + 4.0 * middle + piece.radius_to) / 6.0;
+            sum += piece.length() * mean;
+            length += piece.length();
+        }
+        let mean = if length > 0.0 { sum / length } else { self.radius_from };
+        mean.clamp(self.radius_min(), self.radius_max())
+    }
+
+    /// The area between the curve and the boundary on both sides: all lines from its points to their
+    /// footpoints.
+    ///
+    /// ```
+    /// use medial::axis::{Curve, Site};
+    /// use medial::geom::Point;
+    /// // The focus (0, 2) over the edge y = 0: 16/3 below, half of that above.
+    /// let edge = Site::edge(Point::new(-9.0, 0.0), Point::new(9.0, 0.0));
+    /// let corner = Site::vertex(Point::new(0.0, 2.0));
+    /// let curve = Curve::new(&corner, &edge, (Point::new(-2.0, 2.0), 2.0), (Point::new(2.0, 2.0), 2.0));
+    /// assert!((curve.strip_area() - 8.0).abs() < 1e-14);
+    /// ```
+    #[must_use]
+    pub fn strip_area(&self) -> f64 {
+        let (r1, r2) = (self.radius_from, self.radius_to);
+        match self.form {
+            // Two trapezoids.
+            Form::Linear => {
+                let (chord, rise) = ((self.to - self.from).norm(), r2 - r1);
+                ((chord - rise) * (chord + rise)).max(0.0).sqrt() * (r1 + r2)
+            }
+            // Two triangles.
+            Form::Corners { half, s: [a, b] } => half * (b - a).abs(),
+            // What lies below a parabola, and half as much on the side of the corner.
+            Form::Parabola { x: [a, b], .. } => {
+                (b - a).abs() * (r1 + r2 + 4.0 * self.radius_at(0.5)) / 4.0
+            }
+        }
+    }
+
     /// How fast the radius grows along the curve, as a share of the length: 1 is as fast as it can.
     ///
     /// It is the cosine of half the angle of the disk's arc that lies behind, between both footpoints.

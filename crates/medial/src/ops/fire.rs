@@ -3,13 +3,13 @@
 //! # Method
 //! 1. Each leaf is lit when a fire that starts at its own boundary would get there: at its radius. A
 //!    keypoint burns when all of its paths but one have burnt up to it, and lights the last one.
-//! 2. Where two fires meet, on a path or in a keypoint, is the root of a tree: the point that burns last.
+//! 2. Leaves are peeled off one after the other, whatever the time, up to a keypoint where a tree ends. The
+//!    point of the tree that burns last, its root, lies where the fires of its two longest ways meet: from
+//!    that keypoint the way to it is turned round.
 //! 3. Cycles never burn, nor what joins them; outside, nor what joins paths to infinity.
+//!
+//! All of it takes O(n).
 
-use std::cmp::{Ordering, Reverse};
-use std::collections::BinaryHeap;
-
-use super::groups::Groups;
 use crate::axis::{KeypointKind, MedialAxis};
 
 /// Which way the fire runs through a path.
@@ -33,114 +33,155 @@ pub(super) struct Fire {
     pub ways: Vec<Way>,
     /// The length of each path.
     pub lengths: Vec<f64>,
-    /// Paths in the order in which they are lit.
+    /// Paths in an order in which each one comes after those that light it.
     pub order: Vec<u32>,
     /// Keypoints that burn last in their tree.
     pub roots: Vec<u32>,
 }
 
-/// A fire that arrives at a keypoint by a path.
-#[derive(PartialEq)]
-struct Arrival {
-    time: f64,
-    path: u32,
-    keypoint: u32,
+/// What has come to a keypoint so far.
+#[derive(Clone, Copy)]
+struct Arrivals {
+    /// How many of its paths have not burnt, and the exclusive or of their numbers: that of the last one.
+    left: u32,
+    numbers: u32,
+    /// The path by which the last fire comes, and when; a leaf is lit by itself.
+    last: f64,
+    by: u32,
+    /// When the fire before that comes.
+    before: f64,
 }
 
-impl Eq for Arrival {}
+/// No path.
+const NONE: u32 = u32::MAX;
 
-impl Ord for Arrival {
-    fn cmp(&self, other: &Self) -> Ordering {
-        let key = |a: &Self| (a.path, a.keypoint);
-        self.time.total_cmp(&other.time).then_with(|| key(self).cmp(&key(other)))
-    }
-}
-
-impl PartialOrd for Arrival {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
+impl Arrivals {
+    fn add(&mut self, time: f64, path: u32) {
+        if time > self.last {
+            (self.before, self.last, self.by) = (self.last, time, path);
+        } else {
+            self.before = self.before.max(time);
+        }
     }
 }
 
 impl Fire {
     pub fn new(axis: &MedialAxis) -> Self {
-        let n = axis.keypoints().len();
-        let lengths: Vec<f64> =
-            axis.paths().iter().map(|path| axis.curve(&path).length()).collect();
-        let incidence = Groups::paths_at_keypoints(axis);
-        let mut fire = Self {
-            times: vec![f64::INFINITY; n],
-            ways: vec![Way::Never; lengths.len()],
-            lengths,
-            order: Vec::new(),
-            roots: Vec::new(),
-        };
-        let mut left: Vec<u32> = (0..n as u32).map(|k| incidence.of(k).len() as u32).collect();
-        // What has burnt up to a keypoint already.
-        let mut burnt = vec![false; fire.ways.len()];
-        let mut heap = BinaryHeap::new();
-        for (k, keypoint) in (0..).zip(axis.keypoints().iter()) {
-            match left[k as usize] {
-                0 => {
-                    fire.times[k as usize] = keypoint.radius;
-                    fire.roots.push(k);
-                }
-                1 if keypoint.kind != KeypointKind::Clipped => {
-                    let path = incidence.of(k)[0];
-                    fire.light(axis, path, k, keypoint.radius, &mut heap);
-                }
-                _ => {}
+        let keypoints = axis.keypoints();
+        let nothing = f64::NEG_INFINITY;
+        let none = Arrivals { left: 0, numbers: 0, last: nothing, by: NONE, before: nothing };
+        let mut arrivals = vec![none; keypoints.len()];
+        let mut lengths = Vec::with_capacity(axis.paths().len());
+        for (number, path) in (0..).zip(axis.paths()) {
+            lengths.push(axis.curve(&path).length());
+            for end in [path.from, path.to] {
+                let arrivals = &mut arrivals[end as usize];
+                arrivals.left += 1;
+                arrivals.numbers ^= number;
             }
         }
-        while let Some(Reverse(Arrival { time, path, keypoint })) = heap.pop() {
-            if matches!(fire.ways[path as usize], Way::Both(_)) {
-                continue;
-            }
-            burnt[path as usize] = true;
-            let left = &mut left[keypoint as usize];
-            *left -= 1;
-            match *left {
-                0 => {
-                    fire.times[keypoint as usize] = time;
-                    fire.roots.push(keypoint);
+        let mut fire = Self {
+            times: vec![f64::INFINITY; keypoints.len()],
+            ways: vec![Way::Never; lengths.len()],
+            order: Vec::with_capacity(lengths.len()),
+            lengths,
+            roots: Vec::new(),
+        };
+        let is_clipped = |k: u32| keypoints.at(k).kind == KeypointKind::Clipped;
+        let leaves: Vec<u32> = (0..arrivals.len() as u32)
+            .filter(|&k| arrivals[k as usize].left <= 1 && !is_clipped(k))
+            .collect();
+        for &leaf in &leaves {
+            arrivals[leaf as usize].last = keypoints.at(leaf).radius;
+        }
+        let mut turned = Vec::new();
+        for leaf in leaves {
+            let end = fire.peel(axis, leaf, &mut arrivals);
+            match end {
+                Some(end) if is_clipped(end) => {
+                    fire.times[end as usize] = arrivals[end as usize].last;
+                    fire.roots.push(end);
                 }
-                1 => {
-                    let mut paths = incidence.of(keypoint).iter();
-                    if let Some(&last) = paths.find(|&&path| !burnt[path as usize]) {
-                        fire.light(axis, last, keypoint, time, &mut heap);
-                    }
-                }
-                _ => {}
+                Some(end) => fire.find_root(axis, end, &mut arrivals, &mut turned),
+                None => {}
             }
+        }
+        // What was turned round comes after all that lights it.
+        let mut is_turned = vec![false; if turned.is_empty() { 0 } else { fire.ways.len() }];
+        turned.iter().for_each(|&path| is_turned[path as usize] = true);
+        if !turned.is_empty() {
+            fire.order.retain(|&path| !is_turned[path as usize]);
+            fire.order.extend(turned);
         }
         fire
     }
 
-    /// Lights a path at one end.
-    fn light(
+    /// Burns from a leaf as far as nothing else has to come before; gives the keypoint where a whole tree
+    /// has burnt, if it has.
+    fn peel(&mut self, axis: &MedialAxis, leaf: u32, arrivals: &mut [Arrivals]) -> Option<u32> {
+        let mut keypoint = leaf;
+        loop {
+            let Arrivals { left, numbers: number, last: time, .. } = arrivals[keypoint as usize];
+            match left {
+                // A fire from elsewhere has ended here before, or it is all there is.
+                0 => return (self.times[keypoint as usize] == f64::INFINITY).then_some(keypoint),
+                1 => {}
+                _ => return None,
+            }
+            self.times[keypoint as usize] = time;
+            let path = axis.paths().at(number);
+            let forwards = path.from == keypoint;
+            self.ways[number as usize] = if forwards { Way::Forwards } else { Way::Backwards };
+            self.order.push(number);
+            arrivals[keypoint as usize].left = 0;
+            keypoint = if forwards { path.to } else { path.from };
+            let there = &mut arrivals[keypoint as usize];
+            there.left -= 1;
+            there.numbers ^= number;
+            there.add(time + self.lengths[number as usize], number);
+        }
+    }
+
+    /// Looks for the root of a tree that has burnt up to a keypoint, and turns the way there round.
+    fn find_root(
         &mut self,
         axis: &MedialAxis,
-        path: u32,
-        keypoint: u32,
-        time: f64,
-        heap: &mut BinaryHeap<Reverse<Arrival>>,
+        end: u32,
+        arrivals: &mut [Arrivals],
+        turned: &mut Vec<u32>,
     ) {
-        self.times[keypoint as usize] = time;
-        let ends = axis.paths().at(path);
-        let is_start = ends.from == keypoint;
-        let other = if is_start { ends.to } else { ends.from };
-        let (way, length) = (&mut self.ways[path as usize], self.lengths[path as usize]);
-        if *way != Way::Never {
-            // From the other end it is alight already; unless that fire is here, they meet on the way.
-            let lead = time - self.times[other as usize];
-            let gone = (length + lead) * 0.5;
-            if gone < length {
-                *way = Way::Both(if is_start { length - gone } else { gone });
+        let mut keypoint = end;
+        loop {
+            let Arrivals { last, by, before, .. } = arrivals[keypoint as usize];
+            self.times[keypoint as usize] = last;
+            if by == NONE || last == before {
+                // It burns by itself, or two fires come at once.
+                self.roots.push(keypoint);
+                return;
             }
-            return;
+            // Without the last fire it burns before, and sends one the other way.
+            self.times[keypoint as usize] = before;
+            let path = axis.paths().at(by);
+            let length = self.lengths[by as usize];
+            let child = if path.from == keypoint { path.to } else { path.from };
+            let lead = before - self.times[child as usize];
+            let gone = 0.5 * (length + lead);
+            if gone > 0.0 {
+                if gone < length {
+                    let gone = if path.from == child { gone } else { length - gone };
+                    self.ways[by as usize] = Way::Both(gone);
+                    turned.push(by);
+                } else {
+                    self.times[keypoint as usize] = last;
+                    self.roots.push(keypoint);
+                }
+                return;
+            }
+            self.ways[by as usize] =
+                if path.from == keypoint { Way::Forwards } else { Way::Backwards };
+            turned.push(by);
+            arrivals[child as usize].add(before + length, by);
+            keypoint = child;
         }
-        *way = if is_start { Way::Forwards } else { Way::Backwards };
-        self.order.push(path);
-        heap.push(Reverse(Arrival { time: time + length, path, keypoint: other }));
     }
 }

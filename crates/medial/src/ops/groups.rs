@@ -1,5 +1,7 @@
 //! Numbers by group.
 
+use std::ops::Range;
+
 use crate::axis::MedialAxis;
 
 /// Numbers sorted into groups, within each in the order in which they came.
@@ -34,7 +36,16 @@ impl Groups {
     }
 
     pub fn of(&self, group: u32) -> &[u32] {
+        &self.members[self.range(group)]
+    }
+
+    pub fn of_mut(&mut self, group: u32) -> &mut [u32] {
+        let range = self.range(group);
+        &mut self.members[range]
+    }
+
+    fn range(&self, group: u32) -> Range<usize> {
         let k = group as usize;
-        &self.members[self.first[k] as usize..self.first[k + 1] as usize]
+        self.first[k] as usize..self.first[k + 1] as usize
     }
 }

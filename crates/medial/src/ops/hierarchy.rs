@@ -24,11 +24,13 @@
 
 use std::cell::Cell;
 use std::ops::Range;
+use std::sync::OnceLock;
 
 use super::fire::{Fire, Way};
 use super::ground::Ground;
 use super::measure::Measure;
 use super::rest::{Pruned, Rest};
+use super::scale::Swallowing;
 use crate::axis::{Accuracy, Curve, KeypointKind, MedialAxis, Path, Side, bisected};
 use crate::check::Name;
 use crate::domain::{Domain, Site};
@@ -57,13 +59,15 @@ pub enum HierarchyError {
 #[derive(Debug)]
 pub struct Hierarchy<'a> {
     ground: Ground<'a>,
-    axis: &'a MedialAxis,
+    pub(super) axis: &'a MedialAxis,
     governors: Vec<Site>,
-    fire: Fire,
+    pub(super) fire: Fire,
     /// For each edge the length of the boundary from the start of its walk to the edge.
     before: Vec<f64>,
     /// The corners.
     tree: BoundsTree,
+    /// Made when it is asked for.
+    swallowing: OnceLock<Swallowing>,
 }
 
 /// Values of one measure.
@@ -87,8 +91,36 @@ pub struct Span {
     pub most: f64,
 }
 
+impl Span {
+    /// The largest value, that at the start and that at the end; nothing where it is infinite.
+    #[must_use]
+    pub fn values(&self) -> [Option<f64>; 3] {
+        [self.most, self.start, self.end].map(|value| value.is_finite().then_some(value))
+    }
+}
+
+/// The order in which the paths of an axis are removed: any level of the hierarchy is a part of it from the
+/// start.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Removal {
+    /// What decides.
+    pub measure: Measure,
+    /// The paths that can be removed, the first one to go first.
+    pub paths: Vec<u32>,
+    /// The largest value on each of them, in the same order: all of it goes if the threshold is greater.
+    pub values: Vec<f64>,
+}
+
+impl Removal {
+    /// The paths that a threshold removes altogether. O(log n).
+    #[must_use]
+    pub fn below(&self, threshold: f64) -> &[u32] {
+        &self.paths[..self.values.partition_point(|&value| value < threshold)]
+    }
+}
+
 /// A path, or the part of one up to the root, seen from the leaves.
-struct Limb<'h> {
+pub(super) struct Limb<'h> {
     hierarchy: &'h Hierarchy<'h>,
     curve: Curve,
     left: Site,
@@ -108,16 +140,16 @@ const NONE: u32 = u32::MAX;
 const FEW: usize = 16;
 
 /// A path, or a part of one, that burns in one direction.
-struct Part {
-    path: u32,
+pub(super) struct Part {
+    pub path: u32,
     /// Whether from the start of the path.
-    forwards: bool,
+    pub forwards: bool,
     /// The keypoint ahead.
-    to: u32,
+    pub to: u32,
     /// The parameter up to which it burns in this direction.
-    end: f64,
+    pub end: f64,
     /// That of the root as the path has it, if it lies there.
-    root: Option<f64>,
+    pub root: Option<f64>,
 }
 
 impl<'a> Hierarchy<'a> {
@@ -174,7 +206,12 @@ impl<'a> Hierarchy<'a> {
         let corner = |k: u32| Rect::EMPTY.with(edges[k as usize].start);
         let tree = BoundsTree::new(0, edges.len() as u32, corner);
         let fire = Fire::new(axis);
-        Ok(Self { ground, axis, governors, fire, before, tree })
+        let swallowing = OnceLock::new();
+        Ok(Self { ground, axis, governors, fire, before, tree, swallowing })
+    }
+
+    fn swallowing(&self) -> &Swallowing {
+        self.swallowing.get_or_init(|| Swallowing::new(self.axis))
     }
 
     /// The length of a walk from the start of one edge on to that of another one.
@@ -205,8 +242,9 @@ impl<'a> Hierarchy<'a> {
     }
 
     /// Goes through all parts of paths that burn, those nearer to the leaves first. `done` gets each, with
-    /// the largest value that comes from the leaves, and gives that at its end.
-    fn burn(&self, mut done: impl FnMut(&Part, &Limb<'_>, f64) -> f64) {
+    /// the largest value that comes from the leaves, and gives that at its end. Beyond a value that is
+    /// enough nothing is asked any more.
+    pub(super) fn burn(&self, enough: f64, mut done: impl FnMut(&Part, &Limb<'_>, f64) -> f64) {
         let n = self.axis.keypoints().len();
         let (mut values, mut reaches) = (vec![0.0_f64; n], vec![0.0_f64; n]);
         let mut fars = vec![(0.0, NONE); n];
@@ -223,6 +261,10 @@ impl<'a> Hierarchy<'a> {
                 Way::Never => continue,
             };
             let (from, to) = (path.from as usize, path.to as usize);
+            if values[from] >= enough {
+                values[to] = values[to].max(values[from]);
+                continue;
+            }
             let limb = self.limb(&path, self.fire.times[from], reaches[from], fars[from]);
             let part = Part { path: number, forwards, to: path.to, end: 1.0, root: None };
             let value = done(&part, &limb, values[from]);
@@ -240,6 +282,9 @@ impl<'a> Hierarchy<'a> {
             for (path, end, forwards) in [(path, root, true), (path.reversed(), 1.0 - root, false)]
             {
                 let from = path.from as usize;
+                if values[from] >= enough {
+                    continue;
+                }
                 let limb = self.limb(&path, self.fire.times[from], reaches[from], fars[from]);
                 let part = Part { path: number, forwards, to: path.to, end, root: Some(root) };
                 done(&part, &limb, values[from]);
@@ -250,11 +295,34 @@ impl<'a> Hierarchy<'a> {
     /// The values of a measure on all paths.
     #[must_use]
     pub fn significance(&self, measure: Measure) -> Significance {
+        self.spans(measure, |_| [0.0, 1.0])
+    }
+
+    /// The values of a measure on the paths that pruning left.
+    #[must_use]
+    pub fn significance_of(&self, measure: Measure, pruned: &Pruned) -> Significance {
+        let mut kept = vec![[0.0, 1.0]; self.axis.paths().len()];
+        pruned.origins.iter().for_each(|origin| kept[origin.path as usize] = origin.part);
+        let all = self.spans(measure, |path| kept[path as usize]).paths;
+        let paths = pruned.origins.iter().map(|origin| all[origin.path as usize]).collect();
+        Significance { measure, paths }
+    }
+
+    /// The values on all paths, at the ends of a part of each.
+    fn spans(&self, measure: Measure, kept: impl Fn(u32) -> [f64; 2]) -> Significance {
+        if measure == Measure::Prominence {
+            return Significance { measure, paths: self.prominences(kept) };
+        }
         let all = Span { start: f64::INFINITY, end: f64::INFINITY, most: f64::INFINITY };
         let mut paths = vec![all; self.axis.paths().len()];
-        self.burn(|part, limb, before| {
-            let first = before.max(limb.value(measure, 0.0));
+        self.burn(f64::INFINITY, |part, limb, before| {
+            let [low, high] = kept(part.path);
+            let low = if part.forwards { low } else { 1.0 - high };
+            let mut first = before.max(limb.first(measure));
             let last = first.max(limb.most(measure, part.end));
+            if low > 0.0 {
+                first = first.max(limb.most(measure, low.min(part.end)));
+            }
             let span = &mut paths[part.path as usize];
             match (part.forwards, part.root) {
                 (true, None) => *span = Span { start: first, end: last, most: last },
@@ -268,20 +336,49 @@ impl<'a> Hierarchy<'a> {
         Significance { measure, paths }
     }
 
+    /// The order in which paths go as a threshold grows: each one after those nearer to the leaves.
+    ///
+    /// ```
+    /// # use medial::domain::{Domain, Options};
+    /// # use medial::engine::path_tracing;
+    /// # use medial::geom::Point;
+    /// # use medial::ops::{Hierarchy, Measure};
+    /// # let ring = [(0., 0.), (6., 0.), (6., 2.), (0., 2.)].map(|(x, y)| Point::new(x, y));
+    /// # let domain = Domain::from_polygons(&[vec![ring.to_vec()]], &Options::default())?;
+    /// # let axis = path_tracing(&domain)?;
+    /// let removal = Hierarchy::new(&domain, &axis)?.removal(Measure::Excess);
+    /// // The branches to the corners go at once, then the spine.
+    /// assert_eq!((removal.paths.len(), removal.below(0.5).len(), removal.below(0.4).len()), (5, 4, 0));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn removal(&self, measure: Measure) -> Removal {
+        let most = self.significance(measure).paths;
+        let value = |path: u32| most[path as usize].most;
+        let mut paths = self.fire.order.clone();
+        // Equal ones stay in the order in which they burn.
+        paths.sort_by(|&a, &b| value(a).total_cmp(&value(b)));
+        let values = paths.iter().map(|&path| value(path)).collect();
+        Removal { measure, paths, values }
+    }
+
     /// What is left if all that lies below a threshold is removed, from the leaves inwards.
     ///
     /// With [`Measure::Excess`] the threshold bounds the error.
     #[must_use]
     pub fn pruned(&self, measure: Measure, threshold: f64) -> Pruned {
+        if measure == Measure::Prominence {
+            return self.without_less_prominent(threshold);
+        }
         let mut rest = Rest::of(self.axis);
         // What is lost at a keypoint, if that is kept.
         let mut lost: Vec<(u32, f64)> = Vec::new();
-        self.burn(|part, limb, before| {
-            let first = before.max(limb.value(measure, 0.0));
-            let last = first.max(limb.most(measure, part.end));
+        self.burn(threshold, |part, limb, before| {
+            let first = before.max(limb.first(measure));
             if first >= threshold {
-                return last;
+                return first;
             }
+            let last = first.max(limb.most(measure, part.end));
             let is_lost = last < threshold;
             let cut = if is_lost { part.end } else { limb.reached(measure, threshold, part.end) };
             let excess = limb.value(Measure::Excess, cut);
@@ -327,10 +424,15 @@ impl Visitor for Farthest<'_> {
 }
 
 impl Limb<'_> {
+    /// The parameter of the neck, if it lies before an end.
+    pub fn neck(&self, end: f64) -> Option<f64> {
+        self.curve.neck().filter(|&neck| neck < end)
+    }
+
     /// The first parameter at which a measure reaches a threshold, if it does so before an end.
     fn reached(&self, measure: Measure, threshold: f64, end: f64) -> f64 {
         // Between these places nearly every measure grows, falls or stays.
-        let neck = self.curve.neck().filter(|&neck| neck < end);
+        let neck = self.neck(end);
         let middle = neck.filter(|&neck| self.value(measure, neck) >= threshold);
         let (low, high) = match (middle, neck) {
             (Some(neck), _) => (0.0, neck),
@@ -341,23 +443,34 @@ impl Limb<'_> {
         at(bisected(|u| self.value(measure, at(u)) - threshold))
     }
 
+    /// The value at the start, as far as it may be larger than those of what ends there.
+    fn first(&self, measure: Measure) -> f64 {
+        match measure {
+            // All corners behind are behind one of those.
+            Measure::Excess => 0.0,
+            Measure::RelativeExcess if self.curve.radius_from() > 0.0 => 0.0,
+            _ => self.value(measure, 0.0),
+        }
+    }
+
     /// The largest value up to a parameter, of those there and at the neck.
     fn most(&self, measure: Measure, end: f64) -> f64 {
-        let at_neck = self.curve.neck().filter(|&neck| neck < end);
-        let at_neck = at_neck.map_or(0.0, |neck| self.value(measure, neck));
+        let at_neck = self.neck(end).map_or(0.0, |neck| self.value(measure, neck));
         self.value(measure, end).max(at_neck)
     }
 
     /// The value of a measure at a parameter, by itself.
-    fn value(&self, measure: Measure, u: f64) -> f64 {
+    pub fn value(&self, measure: Measure, u: f64) -> f64 {
         let (centre, radius) = (self.curve.point_at(u), self.curve.radius_at(u));
         let length = || self.curve.piece(0.0, u).length();
         let behind = || 2.0 * self.curve.growth_at(u).clamp(-1.0, 1.0).acos();
         let value = match measure {
             Measure::Excess => self.farthest(centre) - radius,
-            Measure::RelativeExcess if radius > 0.0 => (self.farthest(centre) - radius) / radius,
+            Measure::RelativeExcess | Measure::Prominence if radius > 0.0 => {
+                (self.farthest(centre) - radius) / radius
+            }
             // Out of a corner it is the same all along.
-            Measure::RelativeExcess => self.value(measure, 1.0),
+            Measure::RelativeExcess | Measure::Prominence => self.value(measure, 1.0),
             Measure::Potential => self.boundary(centre),
             Measure::Chord => self.boundary(centre) - self.chord(centre),
             Measure::Circularity => self.boundary(centre) - radius * behind(),
@@ -366,6 +479,7 @@ impl Limb<'_> {
             Measure::Angle => behind().min(std::f64::consts::TAU - behind()),
             Measure::HalfChord => radius * (0.5 * behind()).sin(),
             Measure::Radius => radius,
+            Measure::Scale => self.hierarchy.swallowing().value(centre, radius),
         };
         value.max(0.0)
     }

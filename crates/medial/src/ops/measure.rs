@@ -4,7 +4,7 @@ use crate::axis::names;
 
 /// A measure of how much of a shape a point of its axis stands for.
 ///
-/// All but the last three grow from the leaves to the root, or nearly; removing what lies below a
+/// All but the last four grow from the leaves to the root, or nearly; removing what lies below a
 /// threshold from the leaves inwards keeps components and cycles in any case. With `W` the length of
 /// the boundary between both footpoints on the side of the leaves, `r` the radius:
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -15,6 +15,9 @@ pub enum Measure {
     Excess,
     /// Excess as a share of the radius.
     RelativeExcess,
+    /// The least of that between a point and the root: how far a limb stands out of the shape where it
+    /// grows out of it \[HD86\].
+    Prominence,
     /// `W` \[OK95\].
     Potential,
     /// `W` less the distance of the footpoints \[OK95\].
@@ -31,13 +34,16 @@ pub enum Measure {
     HalfChord,
     /// The radius.
     Radius,
+    /// By how much all disks have to grow until a larger one holds this one \[GMPW09\]; 1 at least.
+    Scale,
 }
 
 names!(
     Measure, "measure",
-    Excess => "excess", RelativeExcess => "relative_excess", Potential => "potential",
+    Excess => "excess", RelativeExcess => "relative_excess", Prominence => "prominence", Potential => "potential",
     Chord => "chord", Circularity => "circularity", Erosion => "erosion", Length => "length",
     Angle => "angle", HalfChord => "half_chord", Radius => "radius",
+    Scale => "scale",
 );
 
 impl Measure {
@@ -46,6 +52,6 @@ impl Measure {
     /// With the others points below it may be kept, so that what is above stays connected.
     #[must_use]
     pub const fn is_monotone(self) -> bool {
-        !matches!(self, Self::Angle | Self::HalfChord | Self::Radius)
+        !matches!(self, Self::Angle | Self::HalfChord | Self::Radius | Self::Scale)
     }
 }

@@ -1,18 +1,38 @@
 //! What is made of an axis.
 
+mod branches;
 mod centerline;
+mod distance;
 mod fire;
+#[cfg(feature = "petgraph")]
+mod graph;
 mod ground;
 mod groups;
 mod hierarchy;
+mod limbs;
 mod measure;
+mod outline;
+mod prominence;
+mod reconstruct;
 mod rest;
+mod scale;
+mod smooth;
 mod voronoi;
 
+pub use branches::{Bend, BoundaryPiece, Branch, BranchPiece, Extent, Primitive, Trend, branches};
 pub use centerline::{Centerline, CenterlineOptions, Widths, centerlines};
-pub use hierarchy::{Hierarchy, HierarchyError, Significance, Span};
+pub use distance::boundary_distance;
+#[cfg(feature = "petgraph")]
+pub use graph::Link;
+pub use hierarchy::{Hierarchy, HierarchyError, Removal, Significance, Span};
+pub use limbs::{Limb, LimbPair, limb_pairs, limbs};
 pub use measure::Measure;
-pub use rest::Pruned;
+pub use outline::{Contour, Outline, OutlineError, OutlinePiece, OutlinePolygon};
+#[cfg(feature = "union")]
+pub use reconstruct::union_of_disks;
+pub use reconstruct::{Disk, ReconstructError, disks, polygons_of, signed_area, tangent_polygons};
+pub use rest::{Origin, Pruned};
+pub use smooth::{SmoothError, Smoothed, smoothed};
 pub use voronoi::{
     Cell, Contact, EdgeKind, Located, PointKind, Region, Voronoi, VoronoiEdge, VoronoiError,
     VoronoiPoint,

@@ -11,6 +11,17 @@ pub struct Pruned {
     /// The distance by which the boundary moves at most if disks take the place of what was removed: the
     /// largest excess at a cut. In units of the input.
     pub error: f64,
+    /// Where each of its paths comes from.
+    pub origins: Vec<Origin>,
+}
+
+/// A part of a path of another axis.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Origin {
+    /// The number of that path.
+    pub path: u32,
+    /// The parameters along its curve where the part starts and ends, in the same direction.
+    pub part: [f64; 2],
 }
 
 /// The parts of paths that are kept.
@@ -46,7 +57,9 @@ impl<'a> Rest<'a> {
         let Self { axis, kept, mut error } = self;
         let whole = [0.0, 1.0];
         if kept.iter().all(|part| *part == whole) {
-            return Pruned { axis: axis.clone(), error };
+            let origin = |path| Origin { path, part: whole };
+            let origins = (0..kept.len() as u32).map(origin).collect();
+            return Pruned { axis: axis.clone(), error, origins };
         }
         let n = axis.keypoints().len();
         let mut degree = vec![0_u32; n];
@@ -81,8 +94,8 @@ impl<'a> Rest<'a> {
             let (position, radius) = (keypoint.position, keypoint.radius);
             points.push(Spot { position, radius, kind, governors: axis.governors(k).to_vec() });
         }
-        let mut paths = Vec::new();
-        for (path, &[low, high]) in axis.paths().iter().zip(&kept) {
+        let (mut paths, mut origins) = (Vec::new(), Vec::new());
+        for (origin, (path, &[low, high])) in (0..).zip(axis.paths().iter().zip(&kept)) {
             // Removed from both ends up to the root, or from one end altogether.
             let is_root = low == high && 0.0 < low && low < 1.0;
             if low >= high && !is_root {
@@ -102,8 +115,9 @@ impl<'a> Rest<'a> {
             let from = if low == 0.0 { number[path.from as usize] } else { tip(low) };
             let to = if high == 1.0 { number[path.to as usize] } else { tip(high) };
             paths.push(Path { from, to, ..path });
+            origins.push(Origin { path: origin, part: [low, high] });
         }
-        Pruned { axis: without_idle_sites(axis, points, paths), error }
+        Pruned { axis: without_idle_sites(axis, points, paths), error, origins }
     }
 }
 

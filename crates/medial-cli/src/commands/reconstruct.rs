@@ -1,0 +1,118 @@
+use super::features::Run;
+use super::records::{POLYGONS, Plan};
+use crate::args::{Method, ReconstructArgs};
+use crate::failure::{Failure, Status};
+use crate::input::{Input, Opened};
+use crate::progress::Progress;
+use crate::report::Entry;
+use crate::timings::timed;
+use medial::axis::{MedialAxis, Side};
+use medial::engine::interior;
+use medial::geom::Point;
+use medial::ops::{
+    Hierarchy, Outline, boundary_distance, disks, polygons_of, signed_area, tangent_polygons,
+    union_of_disks,
+};
+use medial_io::record::{self, Record, Shape, Value};
+use medial_io::{Feature, axis_document, default_tolerance};
+
+const COLUMNS: &[&str] = &["method", "error", "area"];
+
+type Polygons = Vec<Vec<Vec<Point>>>;
+
+/// `medial reconstruct`.
+pub fn run(args: &ReconstructArgs) -> Result<Status, Failure> {
+    let mut run = Run::new(&args.common)?;
+    let plan = Plan {
+        target: &args.target,
+        thing: "polygons",
+        formats: POLYGONS,
+        columns: COLUMNS,
+        engine: args.engine,
+    };
+    let input = match run.opened(&args.input)? {
+        Opened::Axes(input) => return of_documents(args, &plan, &input),
+        Opened::Polygons(polygons) => polygons,
+    };
+    plan.run(run, &input, |_, domain, stages, options| {
+        let mut axis = timed(&mut stages.engine, || interior(domain, args.engine, options))
+            .map_err(|error| Entry::unfinished(&error))?;
+        timed(&mut stages.operations, || {
+            let original = polygons_of(&axis).map_err(|error| Entry::internal(&error))?;
+            if let Some((measure, value)) = args.pruning.threshold() {
+                axis = Hierarchy::new(domain, &axis)
+                    .map_err(|error| Entry::internal(&error))?
+                    .pruned(measure, value)
+                    .axis;
+            }
+            Ok(vec![rebuilt(args, &axis, Some(&original))?])
+        })
+    })
+}
+
+/// Axes that were computed before.
+fn of_documents(args: &ReconstructArgs, plan: &Plan<'_>, input: &Input) -> Result<Status, Failure> {
+    if args.pruning.threshold().is_some() {
+        let why = "axis documents are rebuilt as they are; prune them first, or give polygons";
+        return Err(Failure::Usage(why.to_owned()));
+    }
+    let format = plan.format()?;
+    let mut sink = plan.sink(format, None)?;
+    let progress = Progress::new(args.common.progress, args.common.quiet, None);
+    let (mut done, mut left_out) = (0, 0);
+    for document in axis_document::read(input.text()?) {
+        let document = document.map_err(|error| input.wrong(error))?;
+        let original = polygons_of(&document.axis).ok();
+        match rebuilt(args, &document.axis, original.as_ref()) {
+            Ok(record) => {
+                let source =
+                    Feature { index: document.feature, id: document.id, ..Feature::default() };
+                let mut bytes = Vec::new();
+                let engine = document.axis.engine;
+                record::write(&mut bytes, format, &source, engine, COLUMNS, &[record]);
+                sink.write(&bytes)?;
+                done += 1;
+            }
+            Err(entry) => {
+                let (name, feature) = (&input.name, document.feature);
+                progress.error(&format!("{name}: feature {feature}: {}", entry.message));
+                left_out += 1;
+            }
+        }
+    }
+    progress.finish();
+    if done == 0 {
+        return Ok(Status::NoResult);
+    }
+    sink.finish(&[])?;
+    Ok(if left_out > 0 { Status::LeftOut } else { Status::Done })
+}
+
+/// The polygons of an axis, with their distance from those it was made of, if they are known.
+fn rebuilt(
+    args: &ReconstructArgs,
+    axis: &MedialAxis,
+    original: Option<&Polygons>,
+) -> Result<Record, Entry> {
+    if axis.side != Side::Interior {
+        let why = "the axis is that of the exterior; give that of the interior";
+        return Err(Entry::refused("exterior", why));
+    }
+    let wrong = |error: &dyn std::fmt::Display| Entry::refused("internal", error.to_string());
+    let tolerance = args.tolerance.unwrap_or_else(|| default_tolerance(axis));
+    let step = args.step.unwrap_or(10.0 * tolerance);
+    let polygons = match (args.method, polygons_of(axis)) {
+        (Method::Exact, Ok(polygons)) => polygons,
+        (Method::Exact, Err(_)) => {
+            Outline::new(axis).map_err(|error| wrong(&error))?.polygons(tolerance)
+        }
+        (Method::Tangents, _) => tangent_polygons(axis, step).map_err(|error| wrong(&error))?,
+        (Method::Disks, _) => union_of_disks(&disks(axis, step), tolerance),
+    };
+    let error = original.map_or(f64::INFINITY, |original| {
+        boundary_distance(&original.concat(), &polygons.concat(), 1e-2 * tolerance)
+    });
+    let area = polygons.iter().flatten().map(|ring| signed_area(ring)).sum::<f64>();
+    let values = vec![Value::from(args.method.name()), error.into(), area.into()];
+    Ok(Record { values, shape: Shape::Polygons(polygons) })
+}

@@ -1,0 +1,98 @@
+//! What commands whose results are records do alike.
+
+use super::axis::format_of;
+use super::features::Run;
+use super::sink::Sink;
+use crate::args::Target;
+use crate::failure::{Failure, Status};
+use crate::input::Polygons;
+use crate::report::Entry;
+use crate::timings::{Stages, timed};
+use medial::axis::Engine;
+use medial::domain::Domain;
+use medial::engine;
+use medial_io::record::{self, Record};
+use medial_io::{Feature, Format};
+use std::io::IsTerminal as _;
+use std::time::Duration;
+
+/// How records are made and written.
+pub struct Plan<'a> {
+    pub target: &'a Target,
+    /// What the records are called, for messages.
+    pub thing: &'static str,
+    /// Formats of the output.
+    pub formats: &'static [Format],
+    pub columns: &'static [&'static str],
+    pub engine: Engine,
+}
+
+/// Formats of lines.
+pub const LINES: &[Format] =
+    &[Format::GeoJson, Format::GeoJsonLines, Format::Csv, Format::Wkt, Format::Wkb];
+
+/// Formats of polygons.
+pub const POLYGONS: &[Format] = &record::FORMATS;
+
+impl Plan<'_> {
+    /// The format of the output, if the records have it.
+    pub fn format(&self) -> Result<Format, Failure> {
+        let file = self.target.output.as_deref().filter(|path| path.as_os_str() != "-");
+        let format = format_of(self.target.to, file)?;
+        if !self.formats.contains(&format) {
+            let names = self.formats.iter().map(|format| format.name()).collect::<Vec<_>>();
+            let (thing, names) = (self.thing, names.join(", "));
+            return Err(Failure::Usage(format!("{thing} are written as {names}, not as {format}")));
+        }
+        if format == Format::Wkb && file.is_none() && std::io::stdout().is_terminal() {
+            return Err(Failure::Usage("a terminal shows no wkb; name a file with -o".to_owned()));
+        }
+        Ok(format)
+    }
+
+    /// A place for the records.
+    pub fn sink(&self, format: Format, crs: Option<medial_io::Json>) -> Result<Sink, Failure> {
+        Sink::of_records(self.target.output.as_deref(), format, self.columns, crs)
+    }
+
+    /// Calls `work` for each valid feature of an input and writes the records that it gives.
+    pub fn run(
+        &self,
+        mut run: Run<'_>,
+        input: &Polygons,
+        work: impl Fn(
+            &Feature,
+            &Domain,
+            &mut Stages,
+            &engine::Options<'_>,
+        ) -> Result<Vec<Record>, Entry>
+        + Sync,
+    ) -> Result<Status, Failure> {
+        let format = self.format()?;
+        let layer = timed(&mut run.stages.read, || input.layer())?;
+        let mut sink = self.sink(format, layer.crs.clone())?;
+        let mut write = Duration::ZERO;
+        let (at_once, threads) = run.threads(&layer);
+        let options = engine::Options { threads, ..engine::Options::default() };
+        let status = run.each(
+            input,
+            layer,
+            at_once,
+            |feature, domain, stages, bytes| {
+                let records = work(feature, domain, stages, &options)?;
+                timed(&mut stages.write, || {
+                    record::write(bytes, format, feature, self.engine, self.columns, &records);
+                });
+                Ok(())
+            },
+            |()| {},
+            |bytes| timed(&mut write, || sink.write(bytes)),
+        )?;
+        if status != Status::NoResult {
+            timed(&mut write, || sink.finish(&[]))?;
+        }
+        run.stages.write += write;
+        run.finish()?;
+        Ok(status)
+    }
+}

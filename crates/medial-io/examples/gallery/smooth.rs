@@ -1,0 +1,56 @@
+use crate::lesson::Lesson;
+use crate::shape::{Fallible, Shape};
+use crate::sheet::{Panel, Sheet};
+use crate::style::{AXIS, FINE};
+use medial::axis::{Curve, MedialAxis};
+use medial::domain::{Domain, Options};
+use medial::geom::Point;
+use medial::ops::{Hierarchy, Measure, smoothed, tangent_polygons};
+use medial_io::{Format, read};
+use std::fs;
+
+pub const LESSON: Lesson = Lesson {
+    title: "Smoothing and rebuilding",
+    text: "A stretch of river. On the left `medial smooth river.geojson --prune relative_excess=0.5`: limbs \
+           that stand out by less than half a radius are gone, arcs of the last disks close the gaps, and \
+           no point of the boundary has moved farther than the command tells. In the middle what \
+           `medial reconstruct river.geojson --max-error 10` makes of the pruned axis, all of it within 10 m \
+           of the river. On the right `medial reconstruct river.geojson --method tangents --step 60`: the \
+           polygonal algorithm of Volkmann and St. Clair, from points of the axis that are far apart.",
+    draw,
+};
+
+const NEW: &str = "fill=\"none\" stroke=\"#d84315\" stroke-width=\"1.6\"";
+
+fn draw() -> Fallible<String> {
+    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../../fixtures/river.geojson");
+    let bytes = fs::read(file)?;
+    let feature = read(Format::GeoJson, &bytes)?.next().ok_or("no feature in the fixture")??;
+    let shape = Shape::of(Domain::from_polygons(&feature.polygons, &Options::default())?)?;
+    let Shape { domain, axis, .. } = &shape;
+    let window = shape.window(0.3);
+    let mut sheet = Sheet::new(3, (300.0, 360.0));
+    let mut panel = sheet.panel(window, "smoothed");
+    panel.domain(domain);
+    let smooth = smoothed(domain, axis, Measure::RelativeExcess, 0.5)?;
+    paths(&mut panel, &smooth.axis, FINE);
+    rings(&mut panel, &smooth.outline.polygons(0.5).concat());
+    let mut panel = sheet.panel(window, "within 10 m");
+    panel.domain(domain);
+    let pruned = Hierarchy::new(domain, axis)?.pruned(Measure::Excess, 10.0).axis;
+    paths(&mut panel, &pruned, AXIS);
+    rings(&mut panel, &medial::ops::Outline::new(&pruned)?.polygons(0.5).concat());
+    let mut panel = sheet.panel(window, "tangents");
+    panel.domain(domain);
+    rings(&mut panel, &tangent_polygons(axis, 60.0)?.concat());
+    Ok(sheet.finish(LESSON.title))
+}
+
+fn paths(panel: &mut Panel<'_>, axis: &MedialAxis, style: &str) {
+    let curves: Vec<Curve> = axis.paths().iter().map(|path| axis.curve(&path)).collect();
+    panel.curves(&curves, style);
+}
+
+fn rings(panel: &mut Panel<'_>, rings: &[Vec<Point>]) {
+    rings.iter().for_each(|ring| panel.area(ring, NEW));
+}

@@ -1,0 +1,382 @@
+//! The outline of the shape that an axis stands for: the union of all its disks.
+//!
+//! # Contract
+//! A complete axis gives the corners of the polygons themselves, bit for bit, from its graph alone. Where
+//! something was pruned, an arc of the last disk that is left takes the place of what it touched beyond.
+//! Contours keep the interior on their left: counterclockwise around a component, clockwise around holes.
+//!
+//! # Method
+//! Each path is passed twice, with the boundary to the right and the governors on that side next to it. At
+//! a keypoint the next path is that whose governor follows counterclockwise: the order of its governors
+//! says which, no angle is computed.
+//!
+//! # Departures
+//! Volkmann and St. Clair (II.C) approximate the outline by tangents of disks; see `tangents.rs`.
+
+use super::groups::Groups;
+use crate::axis::{KeypointKind, MedialAxis, Path, Side, Site, SiteKind};
+use crate::geom::{Point, orient2d};
+
+/// The outline of what an axis stands for.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Outline {
+    /// One for each component of the axis.
+    pub polygons: Vec<OutlinePolygon>,
+}
+
+/// A part of an outline without a way to the others: the outer contour, then those of the holes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct OutlinePolygon(pub Vec<Contour>);
+
+/// A closed curve of segments and arcs: corners and ends of arcs are joined in their order, the last one
+/// with the first.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Contour(pub Vec<OutlinePiece>);
+
+/// A piece of a contour.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum OutlinePiece {
+    /// A corner of the boundary.
+    Corner(Point),
+    /// An arc of a disk, counterclockwise; all of the circle if it ends where it starts.
+    Arc {
+        /// Centre of the disk.
+        centre: Point,
+        /// Radius of the disk.
+        radius: f64,
+        /// Where it leaves the boundary.
+        from: Point,
+        /// Where it comes back.
+        to: Point,
+    },
+}
+
+/// Why an axis gives no outline.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum OutlineError {
+    /// The outside of polygons has no outline that is closed.
+    #[error("the axis is that of the exterior; only that of the interior has an outline")]
+    Exterior,
+    /// The order of paths around this keypoint cannot be told.
+    #[error("keypoint {keypoint}: the paths are not in the order of the governors")]
+    Disordered {
+        /// Number of the keypoint.
+        keypoint: u32,
+    },
+}
+
+/// Most points of a flattened arc; only for drawing.
+const MAX_POINTS: f64 = 65_536.0;
+
+impl Outline {
+    /// The outline of an axis of the interior.
+    ///
+    /// ```
+    /// use medial::domain::{Domain, Options};
+    /// use medial::engine::path_tracing;
+    /// use medial::geom::Point;
+    /// use medial::ops::{Hierarchy, Measure, Outline};
+    ///
+    /// let ring = [(0., 0.), (6., 0.), (6., 2.), (0., 2.)].map(|(x, y)| Point::new(x, y));
+    /// let domain = Domain::from_polygons(&[vec![ring.to_vec()]], &Options::default())?;
+    /// let axis = path_tracing(&domain)?;
+    /// let mut corners = Outline::new(&axis)?.polygons(0.1).concat().concat();
+    /// corners.sort_by(|a, b| a.lexicographic(*b));
+    /// assert_eq!(corners, [ring[0], ring[3], ring[1], ring[2]]);
+    ///
+    /// // Without its branches a stadium is left.
+    /// let pruned = Hierarchy::new(&domain, &axis)?.pruned(Measure::Angle, 3.0).axis;
+    /// let stadium = Outline::new(&pruned)?;
+    /// assert!((stadium.area() - (8.0 + std::f64::consts::PI)).abs() < 1e-14);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// If the axis is that of the exterior, or its graph is not that of an axis.
+    pub fn new(axis: &MedialAxis) -> Result<Self, OutlineError> {
+        if axis.side != Side::Interior {
+            return Err(OutlineError::Exterior);
+        }
+        let turns = Turns::new(axis)?;
+        let polygon = |component: Component| {
+            let contour = |darts: &Vec<u32>| turns.contour(darts);
+            let mut contours: Vec<Contour> = component.contours.iter().map(contour).collect();
+            if contours.is_empty() {
+                contours.push(circle(axis, component.keypoint));
+            }
+            // The outer one is that with the interior inside.
+            if let Some(outer) = contours.iter().position(|contour| contour.area() > 0.0) {
+                contours.swap(0, outer);
+            }
+            OutlinePolygon(contours)
+        };
+        Ok(Self { polygons: turns.components().into_iter().map(polygon).collect() })
+    }
+
+    /// The rings of polygons no farther than a tolerance inside of it, the outer one first.
+    #[must_use]
+    pub fn polygons(&self, tolerance: f64) -> Vec<Vec<Vec<Point>>> {
+        let rings = |polygon: &OutlinePolygon| {
+            polygon.0.iter().map(|contour| contour.ring(tolerance)).collect()
+        };
+        self.polygons.iter().map(rings).collect()
+    }
+
+    /// The area within.
+    #[must_use]
+    pub fn area(&self) -> f64 {
+        self.polygons.iter().flat_map(|polygon| &polygon.0).map(Contour::area).sum()
+    }
+}
+
+impl Contour {
+    /// The ring of a polygon no farther than a tolerance inside of it.
+    #[must_use]
+    pub fn ring(&self, tolerance: f64) -> Vec<Point> {
+        let mut ring: Vec<Point> = Vec::new();
+        let mut push = |p: Point| {
+            if ring.last() != Some(&p) {
+                ring.push(p);
+            }
+        };
+        for piece in &self.0 {
+            match *piece {
+                OutlinePiece::Corner(p) => push(p),
+                OutlinePiece::Arc { centre, radius, from, to } => {
+                    push(from);
+                    let sweep = sweep(centre, from, to);
+                    // Half the angle of a chord whose sagitta is the tolerance.
+                    let half = (1.0 - tolerance / radius).clamp(-1.0, 1.0).acos();
+                    let n = (sweep / (2.0 * half)).ceil().clamp(1.0, MAX_POINTS);
+                    let start = (from - centre) * (radius / (from - centre).norm());
+                    for k in 1..n as u32 {
+                        let (sin, cos) = (f64::from(k) * sweep / n).sin_cos();
+                        push(centre + start * cos + start.perp() * sin);
+                    }
+                    push(to);
+                }
+            }
+        }
+        while ring.len() > 1 && ring.first() == ring.last() {
+            ring.pop();
+        }
+        ring
+    }
+
+    /// The area to its left: that within if it runs counterclockwise, the negative one else.
+    #[must_use]
+    pub fn area(&self) -> f64 {
+        let ends = |piece: &OutlinePiece| match *piece {
+            OutlinePiece::Corner(p) => [p, p],
+            OutlinePiece::Arc { from, to, .. } => [from, to],
+        };
+        let Some(origin) = self.0.first().map(|piece| ends(piece)[0]) else { return 0.0 };
+        let points = || self.0.iter().flat_map(ends);
+        let next = points().skip(1).chain(points().take(1));
+        let chords: f64 = points().zip(next).map(|(p, q)| (p - origin).cross(q - origin)).sum();
+        let segment = |piece: &OutlinePiece| match *piece {
+            OutlinePiece::Corner(_) => 0.0,
+            OutlinePiece::Arc { centre, radius, from, to } => {
+                let sweep = sweep(centre, from, to);
+                radius * radius * (sweep - sweep.sin())
+            }
+        };
+        0.5 * (chords + self.0.iter().map(segment).sum::<f64>())
+    }
+}
+
+/// The angle of an arc, counterclockwise.
+fn sweep(centre: Point, from: Point, to: Point) -> f64 {
+    let (u, v) = (from - centre, to - centre);
+    let angle = u.cross(v).atan2(u.dot(v));
+    if from == to {
+        std::f64::consts::TAU
+    } else if angle < 0.0 {
+        angle + std::f64::consts::TAU
+    } else {
+        angle
+    }
+}
+
+/// The disk of a component without paths.
+fn circle(axis: &MedialAxis, keypoint: u32) -> Contour {
+    let disk = axis.keypoints().at(keypoint);
+    let from = disk.position + Point::new(disk.radius, 0.0);
+    let (centre, radius) = (disk.position, disk.radius);
+    Contour(vec![OutlinePiece::Arc { centre, radius, from, to: from }])
+}
+
+/// A part of an axis that is connected.
+pub(super) struct Component {
+    /// One of its keypoints.
+    pub keypoint: u32,
+    /// What is passed with each of its contours on the right; none if it is a point.
+    pub contours: Vec<Vec<u32>>,
+}
+
+/// Ways around the keypoints. Path `k` is passed from its start as number `2k`, from its end as `2k + 1`.
+pub(super) struct Turns<'a> {
+    axis: &'a MedialAxis,
+    /// What leaves each keypoint, counterclockwise.
+    pub leaving: Groups,
+    /// The place of each among those that leave its keypoint.
+    place: Vec<u32>,
+}
+
+impl<'a> Turns<'a> {
+    pub fn new(axis: &'a MedialAxis) -> Result<Self, OutlineError> {
+        let ends = || {
+            let of = |(k, path): (u32, Path)| [(path.from, 2 * k), (path.to, 2 * k + 1)];
+            (0..).zip(axis.paths()).flat_map(of)
+        };
+        let mut turns = Self {
+            axis,
+            leaving: Groups::new(axis.keypoints().len(), ends),
+            place: vec![0; 2 * axis.paths().len()],
+        };
+        let mut order: Vec<(usize, u32)> = Vec::new();
+        for keypoint in 0..axis.keypoints().len() as u32 {
+            let list = axis.governors(keypoint);
+            order.clear();
+            for &dart in turns.leaving.of(keypoint) {
+                let right = turns.path(dart).right;
+                let place = list.iter().position(|&governor| governor == right);
+                order.push((place.ok_or(OutlineError::Disordered { keypoint })?, dart));
+            }
+            order.sort_unstable();
+            if order.windows(2).any(|pair| pair[0].0 == pair[1].0) {
+                return Err(OutlineError::Disordered { keypoint });
+            }
+            let sorted = turns.leaving.of_mut(keypoint);
+            for (k, &(_, dart)) in order.iter().enumerate() {
+                sorted[k] = dart;
+                turns.place[dart as usize] = k as u32;
+            }
+        }
+        Ok(turns)
+    }
+
+    /// The path as it is passed.
+    pub fn path(&self, dart: u32) -> Path {
+        let path = self.axis.paths().at(dart / 2);
+        if dart.is_multiple_of(2) { path } else { path.reversed() }
+    }
+
+    /// What follows along the boundary on the right.
+    pub fn next(&self, dart: u32) -> u32 {
+        let back = dart ^ 1;
+        let around = self.leaving.of(self.path(dart).to);
+        let place = self.place[back as usize] as usize + 1;
+        around[if place < around.len() { place } else { 0 }]
+    }
+
+    /// The components with their contours.
+    pub fn components(&self) -> Vec<Component> {
+        let n = self.axis.keypoints().len();
+        let mut is_met = vec![false; n];
+        let mut is_passed = vec![false; self.place.len()];
+        let mut components = Vec::new();
+        for start in 0..n as u32 {
+            if std::mem::replace(&mut is_met[start as usize], true) {
+                continue;
+            }
+            let mut component = Component { keypoint: start, contours: Vec::new() };
+            let mut open = vec![start];
+            while let Some(keypoint) = open.pop() {
+                for &dart in self.leaving.of(keypoint) {
+                    let to = self.path(dart).to;
+                    if !std::mem::replace(&mut is_met[to as usize], true) {
+                        open.push(to);
+                    }
+                    if !is_passed[dart as usize] {
+                        component.contours.push(self.around(dart, &mut is_passed));
+                    }
+                }
+            }
+            components.push(component);
+        }
+        components
+    }
+
+    /// What is passed with the same contour on the right, from a path on.
+    fn around(&self, start: u32, is_passed: &mut [bool]) -> Vec<u32> {
+        let mut darts = Vec::new();
+        let mut dart = start;
+        while !std::mem::replace(&mut is_passed[dart as usize], true) {
+            darts.push(dart);
+            dart = self.next(dart);
+        }
+        darts
+    }
+
+    /// The contour to the right of all these.
+    fn contour(&self, darts: &[u32]) -> Contour {
+        let mut pieces = Vec::new();
+        for &dart in darts {
+            let path = self.path(dart);
+            let sites = self.axis.sites();
+            let next = self.path(self.next(dart));
+            let (before, after) = (sites.at(path.right), sites.at(next.right));
+            let disk = self.axis.keypoints().at(path.to);
+            if before.kind == SiteKind::Vertex {
+                push(&mut pieces, OutlinePiece::Corner(before.a));
+            }
+            if disk.kind == KeypointKind::End {
+                push(&mut pieces, OutlinePiece::Corner(disk.position));
+            } else if !meet(&before, &after) {
+                let (centre, radius) = (disk.position, disk.radius);
+                let [from, to] = [foot(&before, centre), foot(&after, centre)];
+                push(&mut pieces, OutlinePiece::Arc { centre, radius, from, to });
+            }
+        }
+        if pieces.len() > 1 && pieces.first() == pieces.last() {
+            pieces.pop();
+        }
+        Contour(pieces)
+    }
+}
+
+/// Adds a piece; a corner that governs several paths in a row counts once.
+fn push(pieces: &mut Vec<OutlinePiece>, piece: OutlinePiece) {
+    if pieces.last() != Some(&piece) {
+        pieces.push(piece);
+    }
+}
+
+/// Whether two sites that follow one another along the boundary are one, or have one footpoint: a corner
+/// and one of its edges, or two pieces of an edge.
+fn meet(before: &Site, after: &Site) -> bool {
+    before == after
+        || match (before.kind, after.kind) {
+            (SiteKind::Vertex, SiteKind::Edge) => after.a == before.a,
+            (SiteKind::Edge, SiteKind::Vertex) => before.b == after.a,
+            (SiteKind::Edge, SiteKind::Edge) => {
+                before.b == after.a
+                    && orient2d(before.a, before.b, after.b) == 0.0
+                    && along(before).dot(along(after)) > 0.0
+            }
+            (SiteKind::Vertex, SiteKind::Vertex) => before.a == after.a,
+        }
+}
+
+fn along(edge: &Site) -> Point {
+    edge.b - edge.a
+}
+
+/// The point of a site that is nearest to a point.
+pub(super) fn foot(site: &Site, p: Point) -> Point {
+    let along = site.b - site.a;
+    let length2 = along.norm2();
+    if length2 == 0.0 {
+        return site.a;
+    }
+    let share = along.dot(p - site.a) / length2;
+    if share <= 0.0 {
+        site.a
+    } else if share >= 1.0 {
+        site.b
+    } else {
+        site.a + along * share
+    }
+}

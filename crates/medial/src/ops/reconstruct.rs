@@ -1,0 +1,285 @@
+//! Polygons from an axis.
+//!
+//! # Contract
+//! [`polygons_of`] gives back what a complete exact axis was made of, bit for bit: every edge governs
+//! something, so all are there, with their places in the input. Vertices that a domain merges away, because
+//! they repeat another or lie straight between their neighbours, stay away.
+//! [`tangent_polygons`] takes any axis of the interior, and points along it: the algorithm of Volkmann and
+//! St. Clair (II.C). [`disks`] gives the disks at such points, whose union the shape is.
+//!
+//! # Method
+//! II.C puts a point on each side of every disk, where its tangent is parallel to the tangent that its two
+//! neighbours share on that side. Both sides are passed as in `outline.rs`, so the points come in the order
+//! of the boundary.
+//!
+//! # Departures
+//! None: at branch points nothing is done, as in the paper, and ends get a few points around them.
+
+use super::outline::{Component, OutlineError, Turns};
+use crate::axis::{Accuracy, Curve, MedialAxis, Side, Site, SiteKind};
+use crate::check::Name;
+use crate::geom::Point;
+
+/// Why an axis does not give back its polygons.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ReconstructError {
+    /// Something was removed, or the axis was found from samples.
+    #[error("the axis is pruned or sampled; only a complete exact one holds all of its polygons")]
+    Incomplete,
+    /// The axis is that of the exterior.
+    #[error("the axis is that of the exterior; polygons are rebuilt from that of the interior")]
+    Exterior,
+    /// The edges of a ring do not follow one another.
+    #[error("{name} does not begin where the edge before it ends")]
+    Open {
+        /// The edge.
+        name: Name,
+    },
+}
+
+/// The polygons that a complete exact axis is that of, in the order and the direction in which they were
+/// given: for each polygon its rings, for each ring its corners, from the first one of the input that is
+/// left.
+///
+/// ```
+/// use medial::domain::{Domain, Options};
+/// use medial::engine::path_tracing;
+/// use medial::geom::Point;
+/// use medial::ops::polygons_of;
+///
+/// let ring = [(0.1, 0.2), (0.7, 3.1), (5.3, 1e-7)].map(|(x, y)| Point::new(x, y));
+/// let domain = Domain::from_polygons(&[vec![ring.to_vec()]], &Options::default())?;
+/// assert_eq!(polygons_of(&path_tracing(&domain)?)?, [[ring]]);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// If the axis is not complete, exact, and of the interior, or its edges do not close.
+pub fn polygons_of(axis: &MedialAxis) -> Result<Vec<Vec<Vec<Point>>>, ReconstructError> {
+    if axis.side != Side::Interior {
+        return Err(ReconstructError::Exterior);
+    }
+    if !axis.complete || axis.accuracy != Accuracy::Exact {
+        return Err(ReconstructError::Incomplete);
+    }
+    let mut edges: Vec<Site> =
+        axis.sites().iter().filter(|site| site.kind == SiteKind::Edge).collect();
+    edges.sort_by_key(|e| (e.polygon, e.ring, e.index, e.part));
+    let mut polygons: Vec<Vec<Vec<Point>>> = Vec::new();
+    for ring in edges.chunk_by(|e, f| (e.polygon, e.ring) == (f.polygon, f.ring)) {
+        // Edges have the interior on their left, whichever way the ring was given.
+        let next = |k: usize| &ring[(k + 1) % ring.len()];
+        let ends = |edge: &Site, forwards: bool| {
+            if forwards { (edge.a, edge.b) } else { (edge.b, edge.a) }
+        };
+        let gap = |way: bool| {
+            (0..ring.len()).find(|&k| ends(&ring[k], way).1 != ends(next(k), way).0).map(next)
+        };
+        let Some(way) = [true, false].into_iter().find(|&way| gap(way).is_none()) else {
+            let edge = gap(true).unwrap_or(&ring[0]);
+            let Site { kind, polygon, ring, index, part, .. } = *edge;
+            return Err(ReconstructError::Open { name: Name { kind, polygon, ring, index, part } });
+        };
+        let (polygon, number) = (ring[0].polygon as usize, ring[0].ring as usize);
+        if polygons.len() <= polygon {
+            polygons.resize(polygon + 1, Vec::new());
+        }
+        if polygons[polygon].len() <= number {
+            polygons[polygon].resize(number + 1, Vec::new());
+        }
+        // Pieces of an edge that another ring touches begin at no corner of this ring.
+        let corners = ring.iter().filter(|edge| edge.part == 0).map(|edge| ends(edge, way).0);
+        polygons[polygon][number] = corners.collect();
+    }
+    // Holes without area, and polygons that were empty, have no edges.
+    polygons.iter_mut().for_each(|rings| rings.retain(|ring| !ring.is_empty()));
+    polygons.retain(|rings| !rings.is_empty());
+    Ok(polygons)
+}
+
+/// A disk of an axis.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Disk {
+    /// Its centre.
+    pub centre: Point,
+    /// Its radius.
+    pub radius: f64,
+}
+
+/// Disks along an axis, no farther apart than a step: those of all keypoints, and so many between them
+/// that the boundary of their union is nowhere farther than the step from that of the shape. Those of
+/// radius 0 are points of the boundary.
+#[must_use]
+pub fn disks(axis: &MedialAxis, step: f64) -> Vec<Disk> {
+    let mut disks: Vec<Disk> =
+        axis.keypoints().iter().map(|k| disk(k.position, k.radius)).collect();
+    for path in axis.paths() {
+        let curve = axis.curve(&path);
+        let between = samples(&curve, step);
+        disks.extend(&between[1..between.len() - 1]);
+    }
+    disks
+}
+
+fn disk(centre: Point, radius: f64) -> Disk {
+    Disk { centre, radius }
+}
+
+/// Disks along a curve from its start to its end, at equal shares of its parameter.
+fn samples(curve: &Curve, step: f64) -> Vec<Disk> {
+    let pieces = (curve.length() / step).ceil().clamp(1.0, MAX_PIECES);
+    let at = |k: u32| f64::from(k) / pieces;
+    (0..=pieces as u32).map(|k| disk(curve.point_at(at(k)), curve.radius_at(at(k)))).collect()
+}
+
+/// Most pieces a path is cut into: a mistyped step would fill the memory.
+const MAX_PIECES: f64 = 65_536.0;
+
+/// Points that the report puts between the two tangent points of an end, on the side away from the axis.
+const AROUND_AN_END: u32 = 4;
+
+/// Polygons after Volkmann and St. Clair (II.C), from points along an axis no farther apart than a step.
+///
+/// For each component its contours: the outer one, counterclockwise, first.
+///
+/// # Errors
+/// If the axis is that of the exterior, or its graph is not that of an axis.
+pub fn tangent_polygons(
+    axis: &MedialAxis,
+    step: f64,
+) -> Result<Vec<Vec<Vec<Point>>>, OutlineError> {
+    if axis.side != Side::Interior {
+        return Err(OutlineError::Exterior);
+    }
+    let turns = Turns::new(axis)?;
+    let polygon = |component: Component| {
+        let ring = |darts: &Vec<u32>| tangent_ring(axis, &turns, darts, step);
+        let mut rings: Vec<Vec<Point>> = component.contours.iter().map(ring).collect();
+        if rings.is_empty() {
+            let keypoint = axis.keypoints().at(component.keypoint);
+            rings.push(around(&disk(keypoint.position, keypoint.radius)));
+        }
+        if let Some(outer) = rings.iter().position(|ring| signed_area(ring) > 0.0) {
+            rings.swap(0, outer);
+        }
+        rings
+    };
+    Ok(turns.components().into_iter().map(polygon).collect())
+}
+
+/// The area within a ring, negative if it runs clockwise; rounded.
+#[must_use]
+pub fn signed_area(ring: &[Point]) -> f64 {
+    let Some(&origin) = ring.first() else { return 0.0 };
+    let twice: f64 = ring.windows(2).map(|p| (p[0] - origin).cross(p[1] - origin)).sum();
+    0.5 * twice
+}
+
+/// The union of disks as polygons inside of it, no farther away than a tolerance: for each of its parts
+/// the outer ring, counterclockwise, and the holes. The feature `union` has it.
+#[cfg(feature = "union")]
+#[must_use]
+pub fn union_of_disks(disks: &[Disk], tolerance: f64) -> Vec<Vec<Vec<Point>>> {
+    use i_overlay::core::fill_rule::FillRule;
+    use i_overlay::float::simplify::SimplifyShape;
+    let flattened = |disk: &Disk| {
+        let half = (1.0 - tolerance / disk.radius).clamp(-1.0, 1.0).acos();
+        let n = (std::f64::consts::PI / half).ceil().clamp(6.0, MAX_PIECES) as u32;
+        let point = |k: u32| {
+            let (sin, cos) = (std::f64::consts::TAU * f64::from(k) / f64::from(n)).sin_cos();
+            let p = disk.centre + Point::new(cos, sin) * disk.radius;
+            [p.x, p.y]
+        };
+        (0..n).map(point).collect::<Vec<[f64; 2]>>()
+    };
+    let all: Vec<Vec<[f64; 2]>> =
+        disks.iter().filter(|disk| disk.radius > 0.0).map(flattened).collect();
+    let ring = |ring: Vec<[f64; 2]>| ring.into_iter().map(|[x, y]| Point::new(x, y)).collect();
+    all.simplify_shape_as::<i64>(FillRule::NonZero)
+        .into_iter()
+        .map(|shape| shape.into_iter().map(ring).collect())
+        .collect()
+}
+
+/// What the report does with a disk.
+#[derive(Clone, Copy, PartialEq)]
+enum Role {
+    Normal,
+    Branch,
+    End,
+}
+
+/// The points on one side of the paths that are passed.
+fn tangent_ring(axis: &MedialAxis, turns: &Turns<'_>, darts: &[u32], step: f64) -> Vec<Point> {
+    let mut nodes: Vec<(Disk, Role)> = Vec::new();
+    for (k, &dart) in darts.iter().enumerate() {
+        let path = turns.path(dart);
+        let before = darts[if k == 0 { darts.len() - 1 } else { k - 1 }];
+        let role = match turns.leaving.of(path.from).len() {
+            _ if before == dart ^ 1 => Role::End,
+            2 => Role::Normal,
+            _ => Role::Branch,
+        };
+        let disks = samples(&axis.curve(&path), step);
+        nodes.push((disks[0], role));
+        nodes.extend(disks[1..disks.len() - 1].iter().map(|&disk| (disk, Role::Normal)));
+    }
+    let mut ring = Vec::new();
+    let n = nodes.len();
+    for (k, &(disk, role)) in nodes.iter().enumerate() {
+        let (before, after) = (&nodes[(k + n - 1) % n].0, &nodes[(k + 1) % n].0);
+        match role {
+            Role::Branch => {}
+            Role::Normal => {
+                ring.extend(normal(before, after).map(|normal| disk.centre + normal * disk.radius));
+            }
+            Role::End if disk.radius == 0.0 => ring.push(disk.centre),
+            Role::End => {
+                let (Some(first), Some(last)) = (normal(before, &disk), normal(&disk, after))
+                else {
+                    continue;
+                };
+                let mut turn = first.cross(last).atan2(first.dot(last));
+                if turn <= 0.0 {
+                    turn += std::f64::consts::TAU;
+                }
+                for k in 0..=AROUND_AN_END + 1 {
+                    let (sin, cos) = (turn * f64::from(k) / f64::from(AROUND_AN_END + 1)).sin_cos();
+                    ring.push(disk.centre + (first * cos + first.perp() * sin) * disk.radius);
+                }
+            }
+        }
+    }
+    ring.dedup();
+    ring
+}
+
+/// Points around a disk that is all there is.
+fn around(disk: &Disk) -> Vec<Point> {
+    let n = 4 * (AROUND_AN_END + 1);
+    let point = |k: u32| {
+        let (sin, cos) = (std::f64::consts::TAU * f64::from(k) / f64::from(n)).sin_cos();
+        disk.centre + Point::new(cos, sin) * disk.radius
+    };
+    (0..n).map(point).collect()
+}
+
+/// Distance of two centres, as a share of their coordinates, below which their rounding makes more of their
+/// difference than is told by it.
+const SAME: f64 = 1e-12;
+
+/// The direction away from the line that touches two disks on the right of the way from one to the other;
+/// `None` if one holds the other, or they are the same but for rounding.
+fn normal(from: &Disk, to: &Disk) -> Option<Point> {
+    let way = to.centre - from.centre;
+    let length2 = way.norm2();
+    let size = SAME * (from.centre.norm() + from.radius);
+    if length2 < size * size {
+        return None;
+    }
+    let closing = from.radius - to.radius;
+    let across2 = length2 - closing * closing;
+    // Along the way as much as the radius shrinks, the rest to the right.
+    (across2 > 0.0).then(|| (way * closing - way.perp() * across2.sqrt()) * (1.0 / length2))
+}
