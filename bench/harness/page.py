@@ -57,6 +57,12 @@ Beside its figure 9 the paper prints `CP TIME: .569 SEC`; its program was writte
 
 """
 
+OPERATIONS = """What operations take, on the axis that *engine* made: without reading, validation and writing.
+*hierarchy* is the order of burning with the potential of every path, *significance* the same with the excess; both are parts of what follows.
+*prune* removes what moves the boundary by less than a thousandth of the diagonal of the box, *smooth* limbs with a prominence below 0.1, *branches* are those of the whole axis with their primitives, areas and boundary, *reconstruct* gives the polygons back, *outline* does so from the graph, and *centerline* is the longest line.
+
+"""
+
 FILES = """Whole layers, each feature a domain of its own; columns as for the shapes, *as given* is medial on the coordinates of the file.
 All others get whole numbers: each feature enlarged by a power of two, and shifted, to fill 31 bits, and rounded.
 Features that bound no domain are left out, and so are those where, after rounding, edges meet elsewhere than at ends, which Boost cannot take.
@@ -76,6 +82,7 @@ PARTS = {
     "rivals": ("Slow rivals", RIVALS + ROUNDS + PROCESSOR),
     "steps": (steps.TITLE, STEPS),
     "lee": ("Figures of Lee", LEE + PROCESSOR),
+    "operations": ("Operations", OPERATIONS + PROCESSOR),
     "files": ("Real files", FILES + ROUNDS + PROCESSOR),
     "buildings": ("Buildings, file to file", BUILDINGS + PROCESSOR),
 }

@@ -3,6 +3,7 @@
 //! `medial-bench draw SHAPE EDGES` prints a shape, as `text` describes; `medial-bench time [ENGINE]`
 //! reads shapes and prints one line, as `measure` describes, with the number of paths as what was
 //! found; `medial-bench both ENGINE` does so for the interior and the exterior together;
+//! `medial-bench operation NAME` times the default engine and an operation on its axis;
 //! `medial-bench axis SHAPE EDGES` computes the axis of a shape once, for counting
 //! instructions in `medial_bench_domain` and `medial_bench_engine`; `medial-bench work SHAPE EDGES`
 //! prints the numbers of edges and rings, and what the merges of `divide_and_conquer` did: pieces,
@@ -14,6 +15,9 @@ use medial::axis::{Engine, MedialAxis};
 use medial::domain::{Domain, DomainError, Options};
 use medial::engine::{self, EngineError, both_sides, divide_and_conquer_counted, interior};
 use medial::geom::Point;
+use medial::ops::{
+    CenterlineOptions, Hierarchy, Measure, Outline, branches, centerlines, polygons_of, smoothed,
+};
 use medial_bench::measure::{Error, Work, report};
 use medial_bench::{shapes, text};
 
@@ -24,10 +28,11 @@ fn main() -> Result<(), Error> {
         ["time"] => time(Engine::PathTracing),
         ["time", engine] => time(engine.parse()?),
         ["both", engine] => both(engine.parse()?),
+        ["operation", name] => operation(name),
         ["axis", shape, edges] => axis(shape, edges.parse()?),
         ["work", shape, edges] => work(shape, edges.parse()?),
         _ => {
-            Err("medial-bench draw, axis or work SHAPE EDGES, time [ENGINE], or both ENGINE".into())
+            Err("medial-bench draw, axis or work SHAPE EDGES, time [ENGINE], both ENGINE or operation NAME".into())
         }
     }
 }
@@ -66,6 +71,41 @@ fn both(engine: Engine) -> Result<(), Error> {
         },
     };
     report(&text::read()?, text::edges, &work)
+}
+
+/// Times an operation on an axis, without the domain.
+fn operation(name: &str) -> Result<(), Error> {
+    let work = Work {
+        prepare: |polygons: &text::Polygons| medial_bench_domain(polygons),
+        first: |domain: Result<Domain, DomainError>| {
+            let domain = domain?;
+            let axis = medial_bench_engine(Engine::PathTracing, &domain)?;
+            Ok((domain, axis))
+        },
+        second: |(domain, axis): &mut (Domain, MedialAxis)| medial_bench_operation(name, domain, axis),
+        count: |_: &(Domain, MedialAxis), count: &usize| *count,
+    };
+    report(&text::read()?, text::edges, &work)
+}
+
+/// Does an operation as a user would; gives a number of what came of it.
+#[inline(never)]
+fn medial_bench_operation(name: &str, domain: &Domain, axis: &MedialAxis) -> Result<usize, Error> {
+    let bounds = axis.bounds().map_or(0.0, |(low, high)| (high - low).norm());
+    Ok(match name {
+        "hierarchy" => Hierarchy::new(domain, axis)?.significance(Measure::Potential).paths.len(),
+        "significance" => Hierarchy::new(domain, axis)?.significance(Measure::Excess).paths.len(),
+        "prune" => {
+            let hierarchy = Hierarchy::new(domain, axis)?;
+            hierarchy.pruned(Measure::Excess, 1e-3 * bounds).axis.paths().len()
+        }
+        "smooth" => smoothed(domain, axis, Measure::Prominence, 0.1)?.outline.polygons.len(),
+        "branches" => branches(axis).len(),
+        "reconstruct" => polygons_of(axis)?.len(),
+        "outline" => Outline::new(axis)?.polygons.len(),
+        "centerline" => centerlines(domain, axis, &CenterlineOptions::default())?.len(),
+        _ => return Err(format!("no operation {name}").into()),
+    })
 }
 
 fn work(shape: &str, edges: usize) -> Result<(), Error> {

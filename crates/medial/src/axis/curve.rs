@@ -251,21 +251,34 @@ impl Curve {
     /// ```
     #[must_use]
     pub fn radius_mean(&self) -> f64 {
-        /// Pieces of Simpson's rule: the integrand is smooth, and the last digits do not matter.
-        const PIECES: u32 = 64;
-        if self.form == Form::Linear {
+        // With x = d sinh t the radius is d cosh t between corners, (d/2) cosh² t on a parabola, and sums
+        // along x or along the curve are those of powers of cosh t.
+        let (d, [x1, x2]) = match self.form {
+            Form::Linear => return 0.5 * (self.radius_from + self.radius_to),
+            Form::Corners { half, s } => (half, s),
+            Form::Parabola { d, x, .. } => (d, x),
+        };
+        let (w1, w2) = (x1.hypot(d), x2.hypot(d));
+        let span = x2 - x1;
+        let m = span * (x1 + x2) / (w1 + w2); // w2 - w1 without cancellation
+        let sinh = (span * w1 - x1 * m) / (d * d); // that of the difference of both t
+        let difference = sinh.asinh();
+        if difference == 0.0 {
             return 0.5 * (self.radius_from + self.radius_to);
         }
-        let at = |k: u32| f64::from(k) / f64::from(PIECES);
-        let (mut sum, mut length) = (0.0, 0.0);
-        for k in 0..PIECES {
-            let piece = self.piece(at(k), at(k + 1));
-            let middle = piece.radius_at(0.5);
-            let mean = (piece.radius_from + 4.0 * middle + piece.radius_to) / 6.0;
-            sum += piece.length() * mean;
-            length += piece.length();
-        }
-        let mean = if length > 0.0 { sum / length } else { self.radius_from };
+        // cosh(t1 + t2), and twice the integral of cosh² t.
+        let cosh = (w1 * w2 + x1 * x2) / (d * d);
+        let squares = difference + cosh * sinh;
+        let mean = match self.form {
+            Form::Parabola { .. } => {
+                // Four times that of cosh⁴ t is 3/2 t + sinh 2t + sinh 4t / 8.
+                let double = 2.0 * cosh * sinh;
+                let quadruple = 4.0 * (2.0 * cosh * cosh - 1.0) * sinh * (1.0 + sinh * sinh).sqrt();
+                let fourths = 1.5 * difference + double + 0.125 * quadruple;
+                0.25 * d * fourths / squares
+            }
+            _ => 0.5 * d * squares / (span / d),
+        };
         mean.clamp(self.radius_min(), self.radius_max())
     }
 

@@ -134,6 +134,35 @@ fn the_length_agrees_with_numerical_integration() {
 }
 
 #[test]
+fn the_mean_radius_agrees_with_numerical_integration() {
+    let corners = |d: f64, x1: f64, x2: f64| {
+        let sites = [Site::vertex(Point::new(0.0, d)), Site::vertex(Point::new(0.0, -d))];
+        let end = |x: f64| (Point::new(x, 0.0), x.hypot(d));
+        Curve::new(&sites[0], &sites[1], end(x1), end(x2))
+    };
+    for (d, x1, x2) in [
+        (2.0, -1.0, 3.0),
+        (0.1, 2.0, 5.0),
+        (30.0, -0.5, 0.25),
+        (1.0, 4.0, -4.0),
+        (1.0, 3.0, 3.0 + 1e-9),
+    ] {
+        for curve in [over_axis(d, x1, x2), corners(d, x1, x2)] {
+            let n = 2000;
+            let piece = |k: i32| {
+                let at = |k: i32| f64::from(k) / f64::from(n);
+                let piece = curve.piece(at(k), at(k + 1));
+                let (start, middle, end) =
+                    (piece.radius_from(), piece.radius_at(0.5), piece.radius_to());
+                (piece.length(), piece.length() * (start + 4.0 * middle + end) / 6.0)
+            };
+            let (length, sum) = (0..n).map(piece).fold((0.0, 0.0), |a, p| (a.0 + p.0, a.1 + p.1));
+            close(curve.radius_mean(), sum / length, 1e-6);
+        }
+    }
+}
+
+#[test]
 fn the_length_of_a_short_path_far_from_the_apex_keeps_its_digits() {
     // Over one thousandth part the curve is straight to 1e-12: length = D·√(1 + 9).
     let span = 2.0_f64.powi(-40);

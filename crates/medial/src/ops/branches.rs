@@ -15,6 +15,8 @@
 //! The paper allows axes of any curvature. Those of polygons are straight, or spirals: a parabola bends
 //! most at its apex. Circular axes do not occur.
 
+use smallvec::SmallVec;
+
 use super::groups::Groups;
 use super::outline::foot;
 use crate::axis::{Curve, MedialAxis, Path, Site, SiteKind, names};
@@ -242,8 +244,7 @@ impl Branch {
                         last.curves.push(part);
                     }
                     _ => {
-                        let extent = Extent::of(&[part]);
-                        let curves = vec![part];
+                        let (curves, extent) = (vec![part], Extent::NOTHING);
                         pieces.push(BranchPiece { primitive, trend, bend, curves, extent });
                     }
                 }
@@ -252,7 +253,7 @@ impl Branch {
         for piece in &mut pieces {
             piece.extent = Extent::of(&piece.curves);
         }
-        let extent = Extent::of(&paths.iter().map(|path| axis.curve(path)).collect::<Vec<_>>());
+        let extent = Extent::of_pieces(&pieces);
         let left = BoundaryPiece::beside(axis, &paths, |path| path.left);
         let right = BoundaryPiece::beside(axis, &paths, |path| path.right);
         Self { paths, numbers, pieces, extent, left, right, is_closed }
@@ -295,13 +296,47 @@ fn kind(
 }
 
 impl Extent {
+    const NOTHING: Self = Self {
+        length: 0.0,
+        area: 0.0,
+        radius_start: 0.0,
+        radius_end: 0.0,
+        radius_min: 0.0,
+        radius_max: 0.0,
+        radius_mean: 0.0,
+    };
+
+    /// That of pieces that follow one another.
+    fn of_pieces(pieces: &[BranchPiece]) -> Self {
+        let (Some(first), Some(last)) = (pieces.first(), pieces.last()) else {
+            return Self::NOTHING;
+        };
+        let all = || pieces.iter().map(|piece| &piece.extent);
+        let length: f64 = all().map(|e| e.length).sum();
+        let radius_max = all().map(|e| e.radius_max).fold(0.0, f64::max);
+        let radius_min = all().map(|e| e.radius_min).fold(radius_max, f64::min);
+        let sum: f64 = all().map(|e| e.length * e.radius_mean).sum();
+        let mean = if length > 0.0 { sum / length } else { radius_max };
+        Self {
+            length,
+            area: all().map(|e| e.area).sum(),
+            radius_start: first.extent.radius_start,
+            radius_end: last.extent.radius_end,
+            radius_min,
+            radius_max,
+            radius_mean: mean.clamp(radius_min, radius_max),
+        }
+    }
+
     /// That of curves that follow one another.
     fn of(curves: &[Curve]) -> Self {
         let radius = |end: Option<f64>| end.unwrap_or(0.0);
-        let length: f64 = curves.iter().map(Curve::length).sum();
+        let lengths: SmallVec<[f64; 4]> = curves.iter().map(Curve::length).collect();
+        let length: f64 = lengths.iter().sum();
         let radius_max = curves.iter().map(Curve::radius_max).fold(0.0, f64::max);
         let radius_min = curves.iter().map(Curve::radius_min).fold(radius_max, f64::min);
-        let sum: f64 = curves.iter().map(|curve| curve.length() * curve.radius_mean()).sum();
+        let sums = curves.iter().zip(&lengths).map(|(curve, length)| length * curve.radius_mean());
+        let sum: f64 = sums.sum();
         let mean = if length > 0.0 { sum / length } else { radius_max };
         Self {
             length,

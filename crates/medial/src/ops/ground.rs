@@ -61,14 +61,33 @@ impl<'a> Ground<'a> {
     /// # Errors
     /// The name of a site that the domain does not have.
     pub fn governors(&self, axis: &MedialAxis) -> Result<Vec<Site>, Name> {
-        let named = |site| (Name::of(self.domain(), site), site);
-        let mut names: Vec<(Name, Site)> = self.elements().into_iter().map(named).collect();
-        names.sort_unstable();
+        let elements = self.elements();
+        let mut next = 0;
+        // Made only if sites do not come in boundary order.
+        let mut sorted: Option<Vec<(Name, Site)>> = None;
         let governor = |site: axis::Site| {
+            /// Corners without a cell between two that have one, mostly.
+            const NEAR: usize = 4;
+            let ahead = elements[next..].iter().take(NEAR).position(|&e| self.named(e) == site);
+            if let Some(ahead) = ahead {
+                next += ahead + 1;
+                return Ok(elements[next - 1]);
+            }
+            let names = sorted.get_or_insert_with(|| {
+                let named = |&site| (Name::of(self.domain(), site), site);
+                let mut names: Vec<(Name, Site)> = elements.iter().map(named).collect();
+                names.sort_unstable();
+                names
+            });
             let axis::Site { kind, polygon, ring, index, part, .. } = site;
             let name = Name { kind, polygon, ring, index, part };
             let found = names.binary_search_by(|(known, _)| known.cmp(&name));
-            found.ok().map(|k| names[k].1).filter(|&e| self.named(e) == site).ok_or(name)
+            let found = found.ok().map(|k| names[k].1).filter(|&e| self.named(e) == site);
+            let element = found.ok_or(name)?;
+            // What follows lies behind it, if anywhere.
+            let at = elements.partition_point(|&e| self.place(e) <= self.place(element));
+            next = at;
+            Ok(element)
         };
         axis.sites().iter().map(governor).collect()
     }

@@ -64,8 +64,8 @@ pub struct Hierarchy<'a> {
     pub(super) fire: Fire,
     /// For each edge the length of the boundary from the start of its walk to the edge.
     before: Vec<f64>,
-    /// The corners.
-    tree: BoundsTree,
+    /// The corners, once far ones are looked for.
+    tree: OnceLock<BoundsTree>,
     /// Made when it is asked for.
     swallowing: OnceLock<Swallowing>,
 }
@@ -131,6 +131,8 @@ pub(super) struct Limb<'h> {
     /// The squared distance of the farthest corner behind that was found last, and which it was: mostly
     /// it stays the same along the way.
     far: Cell<(f64, u32)>,
+    /// The squared distance of the farthest corner behind from the start; 0 at a leaf.
+    behind: f64,
 }
 
 /// No corner.
@@ -203,11 +205,17 @@ impl<'a> Hierarchy<'a> {
                 sum += edges[edge as usize].length;
             }
         }
-        let corner = |k: u32| Rect::EMPTY.with(edges[k as usize].start);
-        let tree = BoundsTree::new(0, edges.len() as u32, corner);
         let fire = Fire::new(axis);
-        let swallowing = OnceLock::new();
+        let (tree, swallowing) = (OnceLock::new(), OnceLock::new());
         Ok(Self { ground, axis, governors, fire, before, tree, swallowing })
+    }
+
+    fn tree(&self) -> &BoundsTree {
+        self.tree.get_or_init(|| {
+            let edges = self.ground.domain().edges();
+            let corner = |k: u32| Rect::EMPTY.with(edges[k as usize].start);
+            BoundsTree::new(0, edges.len() as u32, corner)
+        })
     }
 
     fn swallowing(&self) -> &Swallowing {
@@ -238,6 +246,7 @@ impl<'a> Hierarchy<'a> {
             time,
             reach,
             far: Cell::new(far),
+            behind: far.0,
         }
     }
 
@@ -424,6 +433,10 @@ impl Visitor for Farthest<'_> {
 }
 
 impl Limb<'_> {
+    pub fn radius(&self, u: f64) -> f64 {
+        self.curve.radius_at(u)
+    }
+
     /// The parameter of the neck, if it lies before an end.
     pub fn neck(&self, end: f64) -> Option<f64> {
         self.curve.neck().filter(|&neck| neck < end)
@@ -441,6 +454,11 @@ impl Limb<'_> {
         };
         let at = |u: f64| low + (high - low) * u;
         at(bisected(|u| self.value(measure, at(u)) - threshold))
+    }
+
+    /// The excess at the start, from the corners behind all that ends there.
+    pub fn excess_at_start(&self) -> f64 {
+        (self.behind.sqrt() - self.curve.radius_from()).max(0.0)
     }
 
     /// The value at the start, as far as it may be larger than those of what ends there.
@@ -539,7 +557,7 @@ impl Limb<'_> {
                     farthest.item(corner);
                 }
             }
-            self.hierarchy.tree.visit(&mut farthest);
+            self.hierarchy.tree().visit(&mut farthest);
         }
         self.far.set((farthest.distance2, farthest.corner));
         farthest.distance2.sqrt()

@@ -52,7 +52,10 @@ impl Hierarchy<'_> {
             let value = |u: f64| limb.value(Measure::RelativeExcess, u);
             let at_neck = limb.neck(part.end);
             let neck = at_neck.map_or(f64::INFINITY, value);
-            let (start, end) = (value(0.0), value(part.end));
+            let end = value(part.end);
+            let radius = limb.radius(0.0);
+            // Out of a corner it is the same all along.
+            let start = if radius > 0.0 { limb.excess_at_start() / radius } else { end };
             // The last place where it is too little, if it is enough at the end.
             let between = match at_neck {
                 Some(place) if neck < threshold => Some((place, part.end)),
@@ -64,15 +67,19 @@ impl Hierarchy<'_> {
                 let at = |u: f64| low + (high - low) * u;
                 at(bisected(|u| value(at(u)) - threshold))
             });
-            let excess = |u: f64| limb.value(Measure::Excess, u);
+            let excess_at_cut = if cut > 0.0 { limb.value(Measure::Excess, cut) } else { 0.0 };
+            if cut > 0.0 {
+                // What comes next starts from the farthest corner that was found last.
+                value(part.end);
+            }
             all[part.path as usize][usize::from(!part.forwards)] = Some(Stretch {
                 start,
                 neck,
                 end,
                 cut,
                 last: part.end,
-                excess_at_cut: if cut > 0.0 { excess(cut) } else { 0.0 },
-                excess: if threshold > 0.0 { excess(part.end) } else { 0.0 },
+                excess_at_cut,
+                excess: end * limb.radius(part.end),
                 beyond: f64::INFINITY,
             });
             0.0
