@@ -4,13 +4,13 @@ import platform
 import re
 import sys
 
-from . import steps
+from . import families, steps
 from .build import PEERS
 from .buildings import LAYER
 
 HEAD = """# Benchmarks
 
-`scripts/bench --data FOLDER --write docs/benchmarks.md` builds the programs of `bench/`, runs them by turns on the same polygons and draws up this page; `--quick` is shorter, `--shapes`, `--sizes`, `--rivals` and `--parts` choose, and parts that are not chosen stay as they are.
+`scripts/bench --data FOLDER --write docs/benchmarks.md` builds the programs of `bench/`, runs them by turns on the same polygons and draws up this page; `--quick` is shorter, `--shapes`, `--sizes`, `--rivals` and `--parts` choose, and parts and shapes that are not chosen stay as they are.
 Times are medians of the processor time of one thread, in microseconds an edge; reading the input is not counted.
 Each process repeats its work for half a second, and three times at least unless that takes more than six seconds; the allocator of all of them is told to keep what they free (`GLIBC_TUNABLES`, in `bench/harness/run.py`).
 A busy machine moves them; ratios move less, because all programs take turns.
@@ -93,18 +93,32 @@ class Page:
 
     def __init__(self, options):
         self.path = options.write
-        self.values = vars(options) | {"processor": processor()}
+        self.values = vars(options) | {"processor": processor(), "every_shape": families.SHAPES}
         there = self.path and self.path.exists()
         self.parts = sections(self.path.read_text(encoding="utf-8")) if there else {}
 
     def table(self, part, rows):
         title, head = PARTS[part]
-        self.parts[title] = head.format(**self.values)
+        before = self.parts.get(title, "").splitlines()
+        head = head.format(**self.values)
+        made = []
         for cells in rows:
             print(" ".join(cells), file=sys.stderr, flush=True)
-            self.parts[title] += f"| {' | '.join(cells)} |\n"
+            made.append(f"| {' | '.join(cells)} |")
+            self.parts[title] = head + "".join(f"{line}\n" for line in self.with_kept(made, before))
             if self.path:
                 self.path.write_text(self.text(), encoding="utf-8")
+
+    def with_kept(self, made, before):
+        """The lines of a table, with those of shapes that are not drawn up anew, if they fit."""
+        name = lambda line: line.split("|")[1].strip()
+        shapes = self.values["every_shape"]
+        if made[0] not in before or name(made[0]) != "shape":
+            return made
+        asked = self.values["shapes"]
+        rows = [line for line in before if line.startswith("| ") and name(line) in shapes]
+        rows = [line for line in rows if name(line) not in asked] + made[2:]
+        return made[:2] + sorted(rows, key=lambda line: shapes.index(name(line)))
 
     def text(self):
         """The whole page."""
