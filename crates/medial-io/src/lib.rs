@@ -2,7 +2,7 @@
 //!
 //! One module a format, text or bytes in and out; no file is touched here.
 //! [`read`] gives the features of an input in any format that holds polygons,
-//! [`axis_document::read`] the axes of a document, and each format's `write` the rest.
+//! [`axis_document::read`] the axes of a document, [`maxis::read`] those of a compressed file, and each format's `write` the rest.
 //!
 //! ```
 //! use medial::domain::{Domain, Options};
@@ -36,6 +36,7 @@ pub mod axis_document;
 pub mod csv;
 pub mod geojson;
 pub mod location_document;
+pub mod maxis;
 pub mod png;
 pub mod rings;
 pub mod svg;

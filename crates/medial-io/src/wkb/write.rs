@@ -42,16 +42,16 @@ pub fn write(axis: &MedialAxis, drawing: Drawing) -> Vec<u8> {
     out
 }
 
-fn head(out: &mut Vec<u8>, kind: u32) {
+pub(super) fn head(out: &mut Vec<u8>, kind: u32) {
     out.push(1);
     out.extend(kind.to_le_bytes());
 }
 
-fn count(out: &mut Vec<u8>, count: usize) {
+pub(super) fn count(out: &mut Vec<u8>, count: usize) {
     out.extend((count as u32).to_le_bytes());
 }
 
-fn point(out: &mut Vec<u8>, p: Point, radius: Option<f64>) {
+pub(super) fn point(out: &mut Vec<u8>, p: Point, radius: Option<f64>) {
     for value in [p.x, p.y].into_iter().chain(radius) {
         out.extend(value.to_le_bytes());
     }
