@@ -44,14 +44,19 @@ fn name(path: &Path) -> String {
     if path.as_os_str() == "-" { "<stdin>".to_owned() } else { path.display().to_string() }
 }
 
+/// What a compressed axis is in the place of polygons.
+const COMPRESSED: &str = "is a compressed axis; polygons are needed here";
+
 /// The format of the polygons in an input: as asked for, by the extension, else by the content.
 pub fn polygon_format(input: &Input, path: &Path, from: Option<Format>) -> Result<Format, Failure> {
     match from.or_else(|| Format::from_path(path).ok()) {
         Some(Format::Json) | None => match Format::of_content(input.bytes()) {
             Ok(Content::Polygons(format)) => Ok(format),
             Ok(Content::Axes) => Err(input.wrong("is an axis document; polygons are needed here")),
+            Ok(Content::CompressedAxes) => Err(input.wrong(COMPRESSED)),
             Err(error) => Err(input.wrong(error)),
         },
+        Some(Format::Maxis) => Err(input.wrong(COMPRESSED)),
         Some(format @ (Format::Csv | Format::Svg | Format::Png)) => {
             let why = format!(
                 "the format {format} is written only; polygons come as geojson, geojsonl, wkt, wkb or rings"
