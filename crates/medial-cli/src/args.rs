@@ -307,6 +307,7 @@ as maxis, as WKB, and as WKB deflated.
 Examples:
   medial compress fixtures/river.geojson --max-error 1 -o river.maxis --sizes text
   medial compress fixtures/river.geojson --max-error 0 -o river.maxis
+  medial compress fixtures/lake.rings --max-error 5 --simplify -o lake.maxis
   medial compress - --max-error 0.01 < fixtures/shapes/l_with_unit_arms.wkt > l.maxis
 
 Exit status: 0 all done; 1 no usable result; 2 wrong usage; 3 some features were left out.";
@@ -323,6 +324,10 @@ pub struct CompressArgs {
     /// How far the boundary may move, in units of the input; 0 keeps every corner
     #[arg(long, value_name = "V", value_parser = not_negative, allow_negative_numbers = true)]
     pub max_error: f64,
+    /// Keep simplified corners, within the same error, where they take fewer bytes than disks: the axis
+    /// is then that of the simplified polygon
+    #[arg(long)]
+    pub simplify: bool,
     /// Who computes the axis: path_tracing, divide_and_conquer
     #[arg(long, value_name = "NAME", default_value = "path_tracing", value_parser = engine)]
     pub engine: Engine,

@@ -14,7 +14,7 @@ pub struct Row {
     /// The feature; none for the row of all.
     feature: Option<usize>,
     id: Option<Json>,
-    /// `disks` or `corners`; of all how many features have disks.
+    /// `disks`, `corners` or `simplified`; of all how many features have disks.
     stored: Value,
     /// The largest error, in units of the input.
     error: f64,
@@ -46,6 +46,7 @@ impl Row {
     pub fn of(record: &Record, polygons: &[Vec<Vec<Point>>], sizes: Sizes) -> Self {
         let (stored, disks) = match &record.shape {
             Compressed::Disks(graph) => ("disks", graph.disks().len()),
+            Compressed::Corners(corners) if corners.error > 0.0 => ("simplified", 0),
             Compressed::Corners(_) => ("corners", 0),
         };
         let closing = |ring: &[Point]| usize::from(ring.len() > 1 && ring.first() == ring.last());

@@ -131,3 +131,21 @@ fn a_compressed_axis_is_no_polygon() {
     assert_eq!(run.status, Some(1));
     assert!(run.errors.contains("is a compressed axis; polygons are needed"), "{}", run.errors);
 }
+
+#[test]
+fn simplified_corners_take_fewer_bytes_where_that_is_wanted() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("out.maxis");
+    let lake = fixture("lake.rings").display().to_string();
+    let all = |more: &[&str]| {
+        let out = ["--max-error", "0.5", "-o", file.to_str().unwrap()];
+        let words = [&["compress", &lake][..], &out, more].concat();
+        let run = medial(&words);
+        assert_eq!((run.status, run.errors.as_str()), (Some(0), ""));
+        let rows: Vec<Value> =
+            run.text().lines().map(|line| serde_json::from_str(line).unwrap()).collect();
+        (rows[0]["stored"].clone(), rows[1]["maxis"].as_u64().unwrap())
+    };
+    let (plain, simplified) = (all(&[]), all(&["--simplify"]));
+    assert!(simplified.1 <= plain.1, "{plain:?} {simplified:?}");
+}

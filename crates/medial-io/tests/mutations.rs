@@ -135,7 +135,7 @@ fn compressed() -> Vec<u8> {
             let shape = Compressed::Disks(graph);
             records.push(Record { feature: records.len(), id: None, shape });
         }
-        let corners = Corners { engine: Engine::PathTracing, regroup: false, polygons };
+        let corners = Corners { engine: Engine::PathTracing, regroup: false, error: 0.0, polygons };
         let shape = Compressed::Corners(corners);
         records.push(Record { feature: records.len(), id: None, shape });
     }

@@ -284,7 +284,7 @@ fn what_cannot_be_compressed_is_told() {
 fn corners_give_the_exact_axis_again() {
     let polygons = shapes::parse(RECTANGLE);
     let domain = shapes::of(&polygons).unwrap();
-    let corners = Corners { engine: Engine::PathTracing, regroup: false, polygons };
+    let corners = Corners { engine: Engine::PathTracing, regroup: false, error: 0.0, polygons };
     let again = Compressed::Corners(corners).axis().unwrap();
     assert_eq!(again, path_tracing(&domain).unwrap());
 }
@@ -304,4 +304,40 @@ fn governors_of_what_is_read_back_touch_its_disks() {
     }
     // The axis of a frame has one cycle, and so has this one.
     assert_eq!(axis.paths().len() + 1 - axis.keypoints().len(), 1);
+}
+
+/// The largest distance of points of the boundary of one domain from that of another one.
+fn from_to(from: &Domain, to: &Domain) -> f64 {
+    let mut most: f64 = 0.0;
+    for edge in from.edges() {
+        for k in 0..8 {
+            let p = edge.start + edge.direction * (edge.length * f64::from(k) / 8.0);
+            most = most.max(from_boundary(p, to));
+        }
+    }
+    most
+}
+
+#[test]
+fn simplified_corners_stay_within_the_error() {
+    let mut n_simpler = 0;
+    for name in shapes::names() {
+        let polygons = shapes::polygons(&name);
+        let domain = shapes::domain(&name);
+        if domain.edges().len() > 400 {
+            continue;
+        }
+        let corners = Corners { engine: Engine::PathTracing, regroup: false, error: 0.0, polygons };
+        for share in SHARES {
+            let error = share * extent(&domain);
+            let Some(left) = corners.simplified(error) else { continue };
+            let simpler = shapes::of(&left.polygons).unwrap();
+            n_simpler += usize::from(simpler.edges().len() < domain.edges().len());
+            assert!(left.error <= error && left.error > 0.999 * error);
+            let most = left.error + 1e-11 * size(&domain);
+            let found = [from_to(&domain, &simpler), from_to(&simpler, &domain)];
+            assert!(found.iter().all(|&away| away <= most), "{name}: {found:?}, not {error}");
+        }
+    }
+    assert!(n_simpler > 5, "{n_simpler}");
 }

@@ -75,19 +75,25 @@ fn shape(
     options: &engine::Options<'_>,
     stages: &mut Stages,
 ) -> Result<Compressed, Entry> {
-    let corners = Compressed::Corners(Corners {
+    let corners = Corners {
         engine: args.engine,
         regroup: args.common.regroup,
+        error: 0.0,
         polygons: feature.polygons.clone(),
-    });
+    };
     if args.max_error == 0.0 {
-        return Ok(corners);
+        return Ok(Compressed::Corners(corners));
+    }
+    let simplified = if args.simplify { corners.simplified(args.max_error) } else { None };
+    let mut shape = Compressed::Corners(corners);
+    if let Some(simplified) = simplified {
+        shape = maxis::smaller(Compressed::Corners(simplified), shape);
     }
     let axis = timed(&mut stages.engine, || interior(domain, args.engine, options))
         .map_err(|error| Entry::unfinished(&error))?;
     match timed(&mut stages.operations, || compress(domain, &axis, args.max_error)) {
-        Ok(graph) => Ok(maxis::smaller(Compressed::Disks(graph), corners)),
-        Err(CompressError::TooFine { .. }) => Ok(corners),
+        Ok(graph) => Ok(maxis::smaller(Compressed::Disks(graph), shape)),
+        Err(CompressError::TooFine { .. }) => Ok(shape),
         Err(error) => Err(Entry::internal(&error)),
     }
 }

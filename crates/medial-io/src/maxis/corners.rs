@@ -20,6 +20,7 @@ pub(super) fn write(columns: &mut Columns, corners: &Corners, anchor: &mut Optio
     plan.push(grid.0);
     plan.push(engine(corners.engine));
     push_signed(plan, grid.1.into());
+    push(plan, single(corners.error).to_bits().into());
     push(plan, 2 * corners.polygons.len() as u64 + u64::from(corners.regroup));
     let number = |p: &Point| (scale.number(p.x), scale.number(p.y));
     let mut first = origin(*anchor, grid);
@@ -45,6 +46,13 @@ pub(super) fn write(columns: &mut Columns, corners: &Corners, anchor: &mut Optio
             }
         }
     }
+}
+
+/// The least number of single precision that is no less, or the largest there is.
+fn single(error: f64) -> f32 {
+    let near = error as f32;
+    let up = if f64::from(near) < error { near.next_up() } else { near };
+    up.clamp(0.0, f32::MAX)
 }
 
 /// Whether the last point of a ring is the first one again, bit for bit.
@@ -74,6 +82,9 @@ pub(super) fn read(
     };
     // In range: checked above.
     let grid = (kind, detail as i32);
+    let error = u32::try_from(body.number(Column::Plan)?).map(f32::from_bits).ok();
+    let error = error.filter(|error| error.is_finite() && !error.is_sign_negative());
+    let error = error.ok_or("its error is out of range")?.into();
     let head = body.number(Column::Plan)?;
     let (n_polygons, regroup) = (body.fits(Column::Plan, head >> 1)?, head & 1 == 1);
     let mut first = origin(*anchor, grid);
@@ -105,5 +116,5 @@ pub(super) fn read(
         }
         polygons.push(rings);
     }
-    Ok(Corners { engine, regroup, polygons })
+    Ok(Corners { engine, regroup, error, polygons })
 }

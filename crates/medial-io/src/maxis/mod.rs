@@ -13,7 +13,7 @@
 //!
 //! let ring = [(0., 0.), (4., 0.), (4., 2.), (0., 2.)].map(|(x, y)| Point::new(x, y)).to_vec();
 //! let corners =
-//!     Corners { engine: Engine::PathTracing, regroup: false, polygons: vec![vec![ring]] };
+//!     Corners { engine: Engine::PathTracing, regroup: false, error: 0.0, polygons: vec![vec![ring]] };
 //! let record = Record { feature: 0, id: None, shape: Compressed::Corners(corners) };
 //! let bytes = maxis::write(None, std::slice::from_ref(&record));
 //! assert!(maxis::records(&bytes)?.next().is_some_and(|read| read.is_ok_and(|r| r.shape == record.shape)));

@@ -8,7 +8,17 @@ use medial::ops::{Corners, DiskGraph, GridDisk, Run, compress};
 fn corners(text: &str) -> Compressed {
     let feature = wkt::read(text).next().unwrap().unwrap();
     let polygons = feature.polygons;
-    Compressed::Corners(Corners { engine: Engine::DivideAndConquer, regroup: true, polygons })
+    Compressed::Corners(Corners {
+        engine: Engine::DivideAndConquer,
+        regroup: true,
+        error: 0.0,
+        polygons,
+    })
+}
+
+fn simplified(text: &str, error: f64) -> Compressed {
+    let Compressed::Corners(corners) = corners(text) else { panic!("these are corners") };
+    Compressed::Corners(corners.simplified(error).unwrap())
 }
 
 fn disks(text: &str, error: f64) -> Compressed {
@@ -28,6 +38,7 @@ fn records() -> Vec<Record> {
         corners(RING),
         corners("POLYGON ((0.1 0.2, 3.33 0, 1 1))"),
         corners("POLYGON ((0.3333333333333333 1e-7, 3.75 -0, 1 1e100))"),
+        simplified(RING, 0.25),
         corners("POLYGON EMPTY"),
         corners("MULTIPOLYGON EMPTY"),
         disks(L, 0.1),

@@ -144,6 +144,19 @@ impl DiskGraph {
         &self.runs
     }
 
+    /// About how many bits the graph takes in a file: to choose between graphs.
+    pub(super) fn cost(&self) -> u64 {
+        /// What begins a run, and what a number takes besides its own bits.
+        const RUN: u64 = 12;
+        const NUMBER: u64 = 2;
+        let bits = |number: i64| u64::from(64 - number.unsigned_abs().leading_zeros()) + NUMBER;
+        let step = |[a, b]: [u32; 2]| {
+            let (a, b) = (self.disks[a as usize], self.disks[b as usize]);
+            bits(b.x - a.x) + bits(b.y - a.y) + bits(b.radius - a.radius)
+        };
+        RUN * self.runs.len() as u64 + self.links().map(step).sum::<u64>()
+    }
+
     /// Centre and radius of a disk, in units of the input.
     ///
     /// # Panics

@@ -8,7 +8,8 @@
 //! O(n log n) for n keypoints and points of curves, as a rule.
 //!
 //! # Method
-//! 1. Prune the axis by a part of the error, measured by excess [`Hierarchy::pruned`].
+//! 1. Prune the axis by a part of the error, measured by excess [`Hierarchy::pruned`]; several parts are
+//!    tried, and the smallest result is kept.
 //! 2. Sample its curves, and cut them into chains between keypoints of degree other than two.
 //! 3. Take half of the rest of the error off all radii, and go along each chain with as few straight
 //!    pieces between points of a grid as stay near it (`fit.rs`).
@@ -51,6 +52,7 @@ mod chains;
 mod disk_graph;
 mod fit;
 mod rebuild;
+mod simplify;
 
 pub use disk_graph::{DiskGraph, GridDisk, Run};
 pub use rebuild::{Compressed, Corners, RebuildError};
@@ -61,16 +63,16 @@ use crate::axis::{MedialAxis, Side};
 use crate::domain::Domain;
 use fit::Tolerance;
 
-/// The part of the error that pruning may take.
+/// Parts of the error that pruning may take: the one is taken that makes the smallest graph.
 ///
-/// Size only: the bound is the same for any. Branches are dear, and much of what pruning may take it
-/// does take; around a half files are smallest on coasts and rivers.
-const PRUNING_SHARE: f64 = 0.5;
+/// Size only: the bound is the same for any. What has many small branches is best with a large part, what
+/// has few and bends much with a small one.
+const PRUNING_SHARES: [f64; 4] = [0.4, 0.6, 0.75, 0.87];
 
-/// The grid, as a share of the error, at most; it is half of that at least, as a power of two.
+/// The grid, as a share of what pruning leaves of the error: these, rounded down to a power of two.
 ///
 /// Size only. A finer one needs more bits for each disk, a coarser one leaves less for straight pieces.
-const GRID_SHARE: f64 = 0.125;
+const GRID_SHARES: [f64; 2] = [0.125, 0.25];
 
 /// Least error, as a share of the largest coordinate, that disks on a grid are made for.
 ///
@@ -113,7 +115,7 @@ pub enum CompressError {
 /// let ring = [(0., 0.), (6., 0.), (6., 2.), (0., 2.)].map(|(x, y)| Point::new(x, y));
 /// let domain = Domain::from_polygons(&[vec![ring.to_vec()]], &Options::default())?;
 /// let axis = path_tracing(&domain)?;
-/// // With half of an error of 1 the branches to the corners go: two disks, and what is between them.
+/// // The branches to the corners go: two disks, and what is between them.
 /// let graph = compress(&domain, &axis, 1.0)?;
 /// assert_eq!((graph.disks().len(), graph.links().count()), (2, 1));
 /// assert!(graph.error() <= 1.0);
@@ -140,14 +142,17 @@ pub fn compress(
     }
     // One far beyond the shape is as good as any that is larger.
     let max_error = max_error.min(4.0 * size);
-    let exponent = (GRID_SHARE * max_error).log2().floor() as i32;
-    let budget = DiskGraph::whole_error(exponent, max_error).ok_or_else(too_fine)?;
-    let pruned = hierarchy.pruned(Measure::Excess, PRUNING_SHARE * budget);
-    let tolerance = Tolerance::new(exponent, budget - pruned.error, ROUNDING * size);
-    let tolerance = tolerance.ok_or_else(too_fine)?;
-    let layout = chains::layout(&pruned.axis);
-    let fitted = fit::fitted(&pruned.axis, &layout, &tolerance).ok_or_else(too_fine)?;
-    let error = pruned.error + fitted.error;
-    let graph = DiskGraph::new(axis.engine, exponent, error, fitted.disks, fitted.runs);
-    graph.ok_or_else(too_fine)
+    let graphs = PRUNING_SHARES.into_iter().flat_map(|share| {
+        let pruned = hierarchy.pruned(Measure::Excess, share * max_error);
+        let layout = chains::layout(&pruned.axis);
+        GRID_SHARES.map(|grid| {
+            let exponent = (grid * (1.0 - share) * max_error).log2().floor() as i32;
+            let budget = DiskGraph::whole_error(exponent, max_error)?;
+            let tolerance = Tolerance::new(exponent, budget - pruned.error, ROUNDING * size)?;
+            let fitted = fit::fitted(&pruned.axis, &layout, &tolerance)?;
+            let error = pruned.error + fitted.error;
+            DiskGraph::new(axis.engine, exponent, error, fitted.disks, fitted.runs)
+        })
+    });
+    graphs.flatten().min_by_key(DiskGraph::cost).ok_or_else(too_fine)
 }

@@ -7,14 +7,17 @@ use crate::domain::{Domain, DomainError, Options};
 use crate::engine::{self, EngineError};
 use crate::geom::Point;
 
-/// The corners of polygons, from which the exact axis follows.
+/// The corners of polygons, from which their exact axis follows.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Corners {
     /// Who computes the axis.
     pub engine: Engine,
     /// Whether rings are outer rings or holes by their depth, as [`Options::regroup`] wants it.
     pub regroup: bool,
-    /// The polygons: each an outer ring and its holes, points as given, in units of the input.
+    /// How far the boundary of these polygons and the original one are apart at most, in units of the
+    /// input; 0 if they are the original ones, bit for bit.
+    pub error: f64,
+    /// The polygons: each an outer ring and its holes, in units of the input.
     pub polygons: Vec<Vec<Vec<Point>>>,
 }
 
@@ -44,12 +47,12 @@ pub enum RebuildError {
 
 impl Compressed {
     /// How far the boundary of what is rebuilt and the original one are apart at most, in units of the
-    /// input; 0 for corners.
+    /// input; 0 for corners that were not simplified.
     #[must_use]
     pub fn error(&self) -> f64 {
         match self {
             Self::Disks(graph) => graph.error(),
-            Self::Corners(_) => 0.0,
+            Self::Corners(corners) => corners.error,
         }
     }
 
@@ -62,7 +65,7 @@ impl Compressed {
         match self {
             Self::Disks(graph) => graph.axis().ok_or(RebuildError::TooLarge),
             Self::Corners(corners) => {
-                let Corners { engine, regroup, ref polygons } = *corners;
+                let Corners { engine, regroup, ref polygons, .. } = *corners;
                 let options = Options { regroup, ..Options::default() };
                 let domain = Domain::from_polygons(polygons, &options)?;
                 Ok(engine::interior(&domain, engine, &engine::Options::default())?)
