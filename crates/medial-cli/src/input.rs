@@ -1,5 +1,6 @@
 use crate::failure::{Failure, plain};
-use medial_io::{Content, Format, Layer, axis_document};
+use medial_io::axis_document::{self, AxisDocument};
+use medial_io::{Content, Error, Format, Layer};
 use std::cell::RefCell;
 use std::fs::File;
 use std::io::{self, BufRead, BufReader, Cursor, Read as _};
@@ -61,6 +62,13 @@ impl Input {
         medial_io::text(&self.bytes).map_err(|error| self.wrong(error))
     }
 
+    /// The axes in documents or a compressed file.
+    pub fn axes(
+        &self,
+    ) -> Result<impl Iterator<Item = Result<AxisDocument, Error>> + Send + '_, Failure> {
+        axis_document::of_bytes(&self.bytes).map_err(|error| self.wrong(error))
+    }
+
     /// The failure that the content is wrong.
     pub fn wrong(&self, why: impl ToString) -> Failure {
         Failure::file(&self.name, why)
@@ -84,7 +92,7 @@ impl Opened {
                 let usage = from.is_some();
                 return Err(if usage { Failure::Usage(why) } else { Failure::file(&name, why) });
             }
-            Some(format) if format != Format::Json => format,
+            Some(format) if !matches!(format, Format::Json | Format::Maxis) => format,
             _ => {
                 bytes = beginning(&mut source).map_err(failed)?;
                 match Format::of_content(&bytes) {
@@ -93,7 +101,9 @@ impl Opened {
                         source.read_to_end(&mut bytes).map_err(failed)?;
                         match Format::of_content(&bytes) {
                             Ok(Content::Polygons(format)) => format,
-                            Ok(Content::Axes) => return Ok(Self::Axes(Input { name, bytes })),
+                            Ok(Content::Axes | Content::CompressedAxes) => {
+                                return Ok(Self::Axes(Input { name, bytes }));
+                            }
                             Err(error) => return Err(Failure::file(&name, error)),
                         }
                     }
@@ -117,7 +127,7 @@ impl Opened {
             Self::Axes(Input { name, bytes }) if documents == Documents::AsPolygons => {
                 Ok(Polygons { name, format: Format::Json, content: Features::Axes(bytes) })
             }
-            Self::Axes(input) => Err(input.wrong("is an axis document; polygons are needed here")),
+            Self::Axes(input) => Err(input.wrong("holds axes; polygons are needed here")),
         }
     }
 }
@@ -127,7 +137,7 @@ impl Polygons {
     pub fn layer(&self) -> Result<Layer<'_>, Failure> {
         let layer = match &self.content {
             Features::Whole(bytes) => medial_io::read(self.format, bytes),
-            Features::Axes(bytes) => medial_io::text(bytes).map(axis_document::polygons),
+            Features::Axes(bytes) => axis_document::of_bytes(bytes).map(axis_document::polygons),
             Features::Stream(source) => {
                 let source = source.take().unwrap_or_else(|| Box::new(io::empty()));
                 medial_io::read_stream(self.format, source)

@@ -12,6 +12,7 @@ mod output;
 mod parallel;
 mod progress;
 mod report;
+mod sizes;
 mod timings;
 mod verdicts;
 
@@ -40,5 +41,6 @@ fn run() -> Result<Status, Failure> {
         Command::Locate(args) => commands::locate::run(&args),
         Command::Check(args) => commands::check::run(&args),
         Command::Compare(args) => commands::compare::run(&args),
+        Command::Compress(args) => commands::compress::run(&args),
     }
 }

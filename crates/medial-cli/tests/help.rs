@@ -10,7 +10,9 @@ use std::process::Command;
 
 #[test]
 fn the_examples_of_every_command_work() {
-    for command in ["axis", "prune", "centerline", "voronoi", "locate", "check", "compare"] {
+    for command in
+        ["axis", "prune", "centerline", "voronoi", "locate", "check", "compare", "compress"]
+    {
         let help = medial(&[command, "--help"]);
         assert_eq!((help.status, help.errors.as_str()), (Some(0), ""));
         let text = help.text().to_owned();
@@ -41,9 +43,17 @@ fn help_and_version_go_to_standard_output() {
     assert!(version.text().starts_with("medial "));
     let help = medial(&["--help"]);
     assert_eq!(help.status, Some(0));
-    for word in
-        ["axis", "prune", "centerline", "voronoi", "locate", "check", "compare", "Exit status"]
-    {
+    for word in [
+        "axis",
+        "prune",
+        "centerline",
+        "voronoi",
+        "locate",
+        "check",
+        "compare",
+        "compress",
+        "Exit status",
+    ] {
         assert!(help.text().contains(word), "{word}");
     }
 }

@@ -4,7 +4,7 @@
 
 use crate::json::parse;
 use crate::text::{lines, offset, syntax_at};
-use crate::{Error, Feature, FeatureError, Json, Layer};
+use crate::{Content, Error, Feature, FeatureError, Format, Json, Layer, maxis};
 use medial::axis::{Accuracy, CurveKind, Engine, MedialAxis, Path, Side, Site};
 use medial::axis::{SiteKind, UnknownName};
 use medial::geom::Point;
@@ -176,10 +176,25 @@ pub fn read(text: &str) -> impl Iterator<Item = Result<AxisDocument, Error>> {
     lines(text).map(move |line| read_line(text, line))
 }
 
-/// The polygons of the interior axes of a text, which must be complete and exact. Exterior axes are left
-/// out, as `both` sides write the interior of the same feature.
+/// The axes of documents, or of a [compressed](crate::maxis) file.
+///
+/// # Errors
+/// If documents are no text, or a compressed file is damaged.
+pub fn of_bytes<'a>(
+    bytes: &'a [u8],
+) -> Result<Box<dyn Iterator<Item = Result<AxisDocument, Error>> + Send + 'a>, Error> {
+    Ok(match Format::of_content(bytes)? {
+        Content::CompressedAxes => Box::new(maxis::read(bytes)?),
+        _ => Box::new(read(crate::text(bytes)?)),
+    })
+}
+
+/// The polygons of interior axes, which must be complete and exact. Exterior axes are left out, as `both`
+/// sides write the interior of the same feature.
 #[must_use]
-pub fn polygons(text: &str) -> Layer<'_> {
+pub fn polygons<'a>(
+    axes: impl Iterator<Item = Result<AxisDocument, Error>> + Send + 'a,
+) -> Layer<'a> {
     let mut next = 0;
     let feature = move |document: Result<AxisDocument, Error>| {
         let (feature, id, axis) = match document {
@@ -209,7 +224,7 @@ pub fn polygons(text: &str) -> Layer<'_> {
             }
         })
     };
-    Layer::new(read(text).filter_map(feature))
+    Layer::new(axes.filter_map(feature))
 }
 
 fn read_line(text: &str, line: &str) -> Result<AxisDocument, Error> {

@@ -1,5 +1,5 @@
-use crate::Error;
 use crate::json::Head;
+use crate::{Error, maxis};
 use std::fmt;
 use std::path::Path;
 use std::str::FromStr;
@@ -26,6 +26,8 @@ pub enum Format {
     Png,
     /// Bare JSON arrays `[[ring], [hole], …]`.
     Rings,
+    /// The compressed axis.
+    Maxis,
 }
 
 const NAMES: &[(Format, &str, &[&str])] = &[
@@ -38,6 +40,7 @@ const NAMES: &[(Format, &str, &[&str])] = &[
     (Format::Svg, "svg", &["svg"]),
     (Format::Png, "png", &["png"]),
     (Format::Rings, "rings", &["rings"]),
+    (Format::Maxis, "maxis", &["maxis"]),
 ];
 
 /// A word or a file extension that names no format.
@@ -76,13 +79,18 @@ impl Format {
             .ok_or_else(|| unknown(&extension))
     }
 
-    /// The format of an input, told by its beginning: JSON by its `type`, else WKB or WKT.
+    /// The format of an input, told by its beginning: JSON by its `type`, else the compressed
+    /// axis, WKB or WKT.
     ///
     /// # Errors
     /// If the input is empty or begins like none of them.
     pub fn of_content(bytes: &[u8]) -> Result<Content, Error> {
         if let [0 | 1, ..] = bytes {
             return Ok(Content::Polygons(Self::Wkb));
+        }
+        // Without the version, and what else the reader has more to say of.
+        if bytes.starts_with(&maxis::MAGIC[..6]) {
+            return Ok(Content::CompressedAxes);
         }
         let text = crate::text(bytes)?;
         let start = text.trim_start_matches(|c: char| c.is_whitespace() || c == '\u{1e}');
@@ -104,6 +112,8 @@ pub enum Content {
     Polygons(Format),
     /// Medial axes.
     Axes,
+    /// Compressed axes.
+    CompressedAxes,
 }
 
 fn of_json(text: &str, start: &str) -> Result<Content, Error> {
@@ -169,6 +179,7 @@ mod tests {
         assert_eq!(of("\u{2}"), None);
         assert_eq!(of("\u{1}\u{3}"), Some(Content::Polygons(Format::Wkb)));
         assert_eq!(of("0103"), Some(Content::Polygons(Format::Wkb)));
+        assert_eq!(Format::of_content(b"\x8dMAXIS").ok(), Some(Content::CompressedAxes));
         assert!(matches!(Format::of_content(b" \n"), Err(Error::Empty)));
     }
 }

@@ -2,7 +2,7 @@
 //!
 //! One module a format, text or bytes in and out; no file is touched here.
 //! [`read`] gives the features of an input in any format that holds polygons,
-//! [`axis_document::read`] the axes of a document, and each format's `write` the rest.
+//! [`axis_document::read`] the axes of a document, [`maxis::read`] those of a compressed file, and each format's `write` the rest.
 //!
 //! ```
 //! use medial::domain::{Domain, Options};
@@ -38,6 +38,7 @@ pub mod csv;
 pub mod geojson;
 pub mod limb_document;
 pub mod location_document;
+pub mod maxis;
 pub mod png;
 pub mod record;
 pub mod rings;

@@ -1,5 +1,10 @@
 //! Readers on damaged input: an answer, never a panic.
 
+use medial::axis::Engine;
+use medial::domain::{Domain, Options};
+use medial::engine::path_tracing;
+use medial::ops::{Compressed, Corners, compress};
+use medial_io::maxis::{self, Record};
 use medial_io::{Format, axis_document, read};
 
 const SEEDS: [(Format, &[u8]); 5] = [
@@ -116,4 +121,73 @@ fn damaged_axis_documents_are_read_or_refused() {
         }
     }
     assert!(good > 20 && bad > 1000, "{good} good, {bad} bad");
+}
+
+/// The bytes of a compressed axis of all seeds that hold domains, as disks and as corners.
+fn compressed() -> Vec<u8> {
+    let polygons = SEEDS.iter().flat_map(|(format, seed)| read(*format, seed).unwrap());
+    let mut records = Vec::new();
+    for feature in polygons {
+        let polygons = feature.unwrap().polygons;
+        if let Ok(domain) = Domain::from_polygons(&polygons, &Options::default()) {
+            let axis = path_tracing(&domain).unwrap();
+            let graph = compress(&domain, &axis, 0.02).unwrap();
+            let shape = Compressed::Disks(graph);
+            records.push(Record { feature: records.len(), id: None, shape });
+        }
+        let corners = Corners { engine: Engine::PathTracing, regroup: false, error: 0.0, polygons };
+        let shape = Compressed::Corners(corners);
+        records.push(Record { feature: records.len(), id: None, shape });
+    }
+    maxis::write(None, &records)
+}
+
+/// A compressed axis with this body, plain and with the right checksum.
+fn sealed(body: &[u8]) -> Vec<u8> {
+    let stored = [&[0][..], body].concat();
+    [&maxis::MAGIC[..], &crc32fast::hash(&stored).to_le_bytes(), &stored].concat()
+}
+
+#[test]
+fn damaged_compressed_axes_are_refused() {
+    let mut dice = Dice(0x1234_5678_9abc_def1);
+    let file = compressed();
+    assert!(maxis::read(&file).unwrap().filter(Result::is_ok).count() > 4);
+    for _ in 0..4000 {
+        let bytes = damaged(&file, &mut dice);
+        let _ = Format::of_content(&bytes);
+        // The checksum finds whatever was changed.
+        assert!(bytes == file || maxis::records(&bytes).is_err());
+    }
+}
+
+#[test]
+fn malformed_compressed_axes_are_read_or_refused() {
+    let mut dice = Dice(0x0f1e_2d3c_4b5a_6978);
+    let file = compressed();
+    let body = miniz_oxide::inflate::decompress_to_vec(&file[13..]).unwrap();
+    let (mut good, mut bad) = (0, 0);
+    for _ in 0..4000 {
+        let bytes = sealed(&damaged(&body, &mut dice));
+        let Ok(records) = maxis::records(&bytes) else {
+            bad += 1;
+            continue;
+        };
+        for record in records {
+            match record {
+                // What is read can be an axis, whatever its numbers say.
+                Ok(record) => {
+                    if let Compressed::Disks(graph) = &record.shape {
+                        assert!(graph.axis().is_some());
+                    }
+                    good += 1;
+                }
+                Err(error) => {
+                    assert!(!error.to_string().contains('\n'));
+                    bad += 1;
+                }
+            }
+        }
+    }
+    assert!(good > 1000 && bad > 1000, "{good} good, {bad} bad");
 }

@@ -3,6 +3,7 @@ pub mod branches;
 pub mod centerline;
 pub mod check;
 pub mod compare;
+pub mod compress;
 mod features;
 pub mod locate;
 pub mod reconstruct;

@@ -6,7 +6,7 @@ use crate::input::{Input, Opened};
 use crate::progress::Progress;
 use crate::report::Entry;
 use crate::timings::timed;
-use medial::axis::{MedialAxis, Side};
+use medial::axis::{Accuracy, MedialAxis, Side};
 use medial::engine::interior;
 use medial::geom::Point;
 use medial::ops::{
@@ -14,7 +14,7 @@ use medial::ops::{
     union_of_disks,
 };
 use medial_io::record::{self, Record, Shape, Value};
-use medial_io::{Feature, axis_document, default_tolerance};
+use medial_io::{Feature, default_tolerance};
 
 const COLUMNS: &[&str] = &["method", "error", "area"];
 
@@ -60,7 +60,7 @@ fn of_documents(args: &ReconstructArgs, plan: &Plan<'_>, input: &Input) -> Resul
     let mut sink = plan.sink(format, None)?;
     let progress = Progress::new(args.common.progress, args.common.quiet, None);
     let (mut done, mut left_out) = (0, 0);
-    for document in axis_document::read(input.text()?) {
+    for document in input.axes()? {
         let document = document.map_err(|error| input.wrong(error))?;
         let original = polygons_of(&document.axis).ok();
         match rebuilt(args, &document.axis, original.as_ref()) {
@@ -101,7 +101,12 @@ fn rebuilt(
     let wrong = |error: &dyn std::fmt::Display| Entry::refused("internal", error.to_string());
     let tolerance = args.tolerance.unwrap_or_else(|| default_tolerance(axis));
     let step = args.step.unwrap_or(10.0 * tolerance);
-    let polygons = match (args.method, polygons_of(axis)) {
+    // What is between samples has no outline of its own.
+    let method = match axis.accuracy {
+        Accuracy::Sampled(_) if args.method == Method::Exact => Method::Disks,
+        _ => args.method,
+    };
+    let polygons = match (method, polygons_of(axis)) {
         (Method::Exact, Ok(polygons)) => polygons,
         (Method::Exact, Err(_)) => {
             Outline::new(axis).map_err(|error| wrong(&error))?.polygons(tolerance)
@@ -113,6 +118,6 @@ fn rebuilt(
         boundary_distance(&original.concat(), &polygons.concat(), 1e-2 * tolerance)
     });
     let area = polygons.iter().flatten().map(|ring| signed_area(ring)).sum::<f64>();
-    let values = vec![Value::from(args.method.name()), error.into(), area.into()];
+    let values = vec![Value::from(method.name()), error.into(), area.into()];
     Ok(Record { values, shape: Shape::Polygons(polygons) })
 }

@@ -1,3 +1,4 @@
+use super::polygons::write_polygons;
 use crate::Drawing;
 use crate::path::records;
 use crate::record::Shape;
@@ -6,10 +7,8 @@ use medial::geom::Point;
 
 const POINT: u32 = 1;
 const LINE: u32 = 2;
-const POLYGON: u32 = 3;
 const MULTI_POINT: u32 = 4;
 const MULTI_LINE: u32 = 5;
-const MULTI_POLYGON: u32 = 6;
 const COLLECTION: u32 = 7;
 
 /// The axis as one MULTILINESTRING, a line per path, little-endian; ISO types with heights.
@@ -47,41 +46,26 @@ pub fn write(axis: &MedialAxis, drawing: Drawing) -> Vec<u8> {
 
 /// A shape.
 pub(crate) fn shape(out: &mut Vec<u8>, shape: &Shape) {
-    let polygon = |out: &mut Vec<u8>, rings: &[Vec<Point>]| {
-        head(out, POLYGON);
-        count(out, rings.len());
-        for ring in rings {
-            count(out, ring.len() + usize::from(!ring.is_empty()));
-            ring.iter().chain(ring.first()).for_each(|&p| point(out, p, None));
-        }
-    };
     match shape {
         Shape::Line(points) => {
             head(out, LINE);
             count(out, points.len());
             points.iter().for_each(|&p| point(out, p, None));
         }
-        Shape::Polygons(polygons) => match &polygons[..] {
-            [rings] => polygon(out, rings),
-            polygons => {
-                head(out, MULTI_POLYGON);
-                count(out, polygons.len());
-                polygons.iter().for_each(|rings| polygon(out, rings));
-            }
-        },
+        Shape::Polygons(polygons) => out.extend(write_polygons(polygons)),
     }
 }
 
-fn head(out: &mut Vec<u8>, kind: u32) {
+pub(super) fn head(out: &mut Vec<u8>, kind: u32) {
     out.push(1);
     out.extend(kind.to_le_bytes());
 }
 
-fn count(out: &mut Vec<u8>, count: usize) {
+pub(super) fn count(out: &mut Vec<u8>, count: usize) {
     out.extend((count as u32).to_le_bytes());
 }
 
-fn point(out: &mut Vec<u8>, p: Point, radius: Option<f64>) {
+pub(super) fn point(out: &mut Vec<u8>, p: Point, radius: Option<f64>) {
     for value in [p.x, p.y].into_iter().chain(radius) {
         out.extend(value.to_le_bytes());
     }

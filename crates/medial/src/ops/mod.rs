@@ -2,6 +2,7 @@
 
 mod branches;
 mod centerline;
+mod compress;
 mod distance;
 mod fire;
 #[cfg(feature = "petgraph")]
@@ -21,6 +22,9 @@ mod voronoi;
 
 pub use branches::{Bend, BoundaryPiece, Branch, BranchPiece, Extent, Primitive, Trend, branches};
 pub use centerline::{Centerline, CenterlineOptions, Widths, centerlines};
+pub use compress::{
+    CompressError, Compressed, Corners, DiskGraph, GridDisk, RebuildError, Run, compress,
+};
 pub use distance::boundary_distance;
 #[cfg(feature = "petgraph")]
 pub use graph::Link;

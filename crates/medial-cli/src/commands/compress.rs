@@ -1,0 +1,114 @@
+use super::features::Run;
+use crate::args::{CompressArgs, Rows};
+use crate::failure::{Failure, Status};
+use crate::input::Documents;
+use crate::output::Output;
+use crate::report::Entry;
+use crate::sizes::{Row, Totals, csv_header};
+use crate::timings::{Stages, timed};
+use medial::domain::Domain;
+use medial::engine::{self, interior};
+use medial::ops::{CompressError, Compressed, Corners, compress};
+use medial_io::maxis::{self, Record};
+use medial_io::{Feature, Format, wkb};
+use std::io::IsTerminal as _;
+use std::time::Duration;
+
+/// `medial compress`.
+pub fn run(args: &CompressArgs) -> Result<Status, Failure> {
+    let mut run = Run::new(&args.common)?;
+    let file = args.output.as_deref().filter(|path| path.as_os_str() != "-");
+    check_output(file)?;
+    let input = run.open_with(&args.input, Documents::AsPolygons)?;
+    let layer = timed(&mut run.stages.read, || input.layer())?;
+    let crs = layer.crs.clone();
+    let output = Output::create(file)?;
+    // The sizes go where the file does not.
+    let mut rows = file.map(|_| Output::create(None)).transpose()?;
+    let (at_once, threads) = run.threads(&layer);
+    let options = engine::Options { threads, ..engine::Options::default() };
+    let mut totals = Totals::default();
+    let mut begun = false;
+    let status = run.each(
+        &input,
+        layer,
+        at_once,
+        |feature, domain, stages, bytes| {
+            let shape = shape(feature, domain, args, &options, stages)?;
+            let record = Record { feature: feature.index, id: feature.id.clone(), shape };
+            let wkb = wkb::write_polygons(&feature.polygons);
+            timed(&mut stages.write, || {
+                let sizes = maxis::sizes(None, std::slice::from_ref(&record), &wkb);
+                let row = Row::of(&record, &feature.polygons, sizes);
+                bytes.extend(row.written(args.sizes));
+                Ok((record, row, wkb))
+            })
+        },
+        |(record, row, wkb)| totals.add(record, &row, &wkb),
+        |bytes| {
+            let Some(rows) = &mut rows else { return Ok(()) };
+            if args.sizes == Rows::Csv && !std::mem::replace(&mut begun, true) {
+                rows.write(&csv_header())?;
+            }
+            rows.write(bytes)
+        },
+    )?;
+    let mut write = Duration::ZERO;
+    if status != Status::NoResult {
+        timed(&mut write, || {
+            output.whole(&maxis::write(crs.as_ref(), totals.records()))?;
+            let Some(mut rows) = rows else { return Ok(()) };
+            rows.write(&totals.row(crs.as_ref()).written(args.sizes))?;
+            rows.finish()
+        })?;
+    }
+    run.stages.write += write;
+    run.finish()?;
+    Ok(status)
+}
+
+/// What stands for a feature: disks, if an error is allowed and they take less, else its corners.
+fn shape(
+    feature: &Feature,
+    domain: &Domain,
+    args: &CompressArgs,
+    options: &engine::Options<'_>,
+    stages: &mut Stages,
+) -> Result<Compressed, Entry> {
+    let corners = Corners {
+        engine: args.engine,
+        regroup: args.common.regroup,
+        error: 0.0,
+        polygons: feature.polygons.clone(),
+    };
+    if args.max_error == 0.0 {
+        return Ok(Compressed::Corners(corners));
+    }
+    let simplified = if args.simplify { corners.simplified(args.max_error) } else { None };
+    let mut shape = Compressed::Corners(corners);
+    if let Some(simplified) = simplified {
+        shape = maxis::smaller(Compressed::Corners(simplified), shape);
+    }
+    let axis = timed(&mut stages.engine, || interior(domain, args.engine, options))
+        .map_err(|error| Entry::unfinished(&error))?;
+    match timed(&mut stages.operations, || compress(domain, &axis, args.max_error)) {
+        Ok(graph) => Ok(maxis::smaller(Compressed::Disks(graph), shape)),
+        Err(CompressError::TooFine { .. }) => Ok(shape),
+        Err(error) => Err(Entry::internal(&error)),
+    }
+}
+
+/// Fails if the file is to be of another format, or would go to a terminal.
+fn check_output(file: Option<&std::path::Path>) -> Result<(), Failure> {
+    match file.map(Format::from_path) {
+        None if std::io::stdout().is_terminal() => {
+            let why = "a terminal shows no maxis; name a file with -o";
+            Err(Failure::Usage(why.to_owned()))
+        }
+        Some(Ok(format)) if format != Format::Maxis => {
+            let why = format!("compressed axes are written as maxis, not as {format}");
+            Err(Failure::Usage(why))
+        }
+        _ => Ok(()),
+    }
+}
