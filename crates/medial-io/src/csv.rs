@@ -1,11 +1,13 @@
-//! Comma-separated values: a row a path, the drawn line as WKT in the first column as GDAL
-//! writes and reads it.
+//! Comma-separated values: a row a path or a centerline, the drawn line as WKT in the first column as
+//! GDAL writes and reads it.
 
 use crate::number::push_shortest;
 use crate::path::{PathRecord, records};
-use crate::wkt::line_string;
+use crate::wkt::{drawn_line, line_string};
 use crate::{Drawing, Feature};
-use medial::axis::MedialAxis;
+use medial::axis::{Engine, MedialAxis};
+use medial::geom::Point;
+use medial::ops::{Centerline, Widths};
 use std::fmt::{Display, Write as _};
 
 const PLACE: [&str; 10] =
@@ -27,9 +29,7 @@ pub fn header(drawing: Drawing) -> String {
 #[must_use]
 pub fn rows(source: &Feature, axis: &MedialAxis, drawing: Drawing) -> String {
     let tolerance = drawing.tolerance(axis);
-    let id = source.id.as_ref().map_or("", |id| id.get());
-    // A text is written without the quotes JSON puts around it.
-    let id = serde_json::from_str::<String>(id).unwrap_or_else(|_| id.to_owned());
+    let id = id(source);
     let mut table = Table::new();
     for (k, record) in records(axis).enumerate() {
         let PathRecord { path, curve, ends } = record;
@@ -57,6 +57,62 @@ pub fn rows(source: &Feature, axis: &MedialAxis, drawing: Drawing) -> String {
         table.end_row();
     }
     table.text()
+}
+
+const CENTERLINE: [&str; 11] = [
+    "WKT",
+    "feature",
+    "id",
+    "engine",
+    "rank",
+    "length",
+    "width_min",
+    "width_max",
+    "width_mean",
+    "closed",
+    "is_best",
+];
+
+/// The row of column names of centerlines.
+#[must_use]
+pub fn centerline_header() -> String {
+    let mut table = Table::new();
+    CENTERLINE.into_iter().for_each(|name| table.field(|out| out.push_str(name)));
+    table.end_row();
+    table.text()
+}
+
+/// The rows of the centerlines of one feature, as [`polylines`](medial::ops::polylines) has drawn them; with
+/// the distance of the boundary as third coordinate if asked for.
+#[must_use]
+pub fn centerline_rows(
+    source: &Feature,
+    engine: Engine,
+    lines: &[Centerline],
+    drawn: &[Vec<(Point, f64)>],
+    radius_as_z: bool,
+) -> String {
+    let id = id(source);
+    let mut table = Table::new();
+    for ((rank, line), points) in (1_usize..).zip(lines).zip(drawn) {
+        table.field(|out| drawn_line(out, points, radius_as_z));
+        table.whole(source.index);
+        table.field(|out| out.push_str(&id));
+        table.field(|out| out.push_str(engine.name()));
+        table.whole(rank);
+        let Widths { least, greatest, mean } = line.widths();
+        [line.length(), least, greatest, mean].into_iter().for_each(|value| table.number(value));
+        table.whole(line.is_closed());
+        table.whole(line.is_best);
+        table.end_row();
+    }
+    table.text()
+}
+
+/// The name of a feature. A text is written without the quotes JSON puts around it.
+fn id(source: &Feature) -> String {
+    let id = source.id.as_ref().map_or("", |id| id.get());
+    serde_json::from_str::<String>(id).unwrap_or_else(|_| id.to_owned())
 }
 
 /// A table that is being written.

@@ -10,7 +10,7 @@ use medial::domain::Domain;
 use medial::engine::{self, EngineError, both_sides, exterior, interior};
 use medial::ops::Hierarchy;
 use medial_io::svg::Options;
-use medial_io::{Drawing, Format};
+use medial_io::{Drawing, Format, csv};
 use std::io::IsTerminal as _;
 use std::path::Path;
 
@@ -43,7 +43,7 @@ pub fn run(args: &AxisArgs) -> Result<Status, Failure> {
         ..Options::default()
     };
     let crs = layer.crs.clone();
-    let mut sink = Sink::create(args.output.as_deref(), format, drawing, crs)?;
+    let mut sink = Sink::create(args.output.as_deref(), format, csv::header(drawing), crs)?;
     let mut scenes = Vec::new();
     let mut write = std::time::Duration::ZERO;
     let (at_once, threads) = run.threads(&layer);

@@ -13,7 +13,8 @@ use std::path::Path;
 pub struct Sink {
     output: Output,
     format: Format,
-    drawing: Drawing,
+    /// The row of column names of CSV.
+    columns: String,
     crs: Option<Json>,
     begun: bool,
 }
@@ -75,7 +76,8 @@ fn encode_one(
     None
 }
 
-fn boundary(domain: &Domain) -> Vec<Vec<medial::geom::Point>> {
+/// The closed boundary walks of a domain.
+pub fn boundary(domain: &Domain) -> Vec<Vec<medial::geom::Point>> {
     let edges = |walk: &medial::domain::Walk| {
         let first = walk.first as usize;
         domain.edges()[first..first + walk.len as usize].iter().map(|edge| edge.start).collect()
@@ -87,10 +89,10 @@ impl Sink {
     pub fn create(
         path: Option<&Path>,
         format: Format,
-        drawing: Drawing,
+        columns: String,
         crs: Option<Json>,
     ) -> Result<Self, Failure> {
-        Ok(Self { output: Output::create(path)?, format, drawing, crs, begun: false })
+        Ok(Self { output: Output::create(path)?, format, columns, crs, begun: false })
     }
 
     /// Writes what [`encode`] made of axes that follow one another.
@@ -111,7 +113,7 @@ impl Sink {
         }
         match self.format {
             Format::GeoJson => self.output.write(geojson::header(self.crs.as_ref()).as_bytes()),
-            Format::Csv => self.output.write(csv::header(self.drawing).as_bytes()),
+            Format::Csv => self.output.write(self.columns.as_bytes()),
             _ => Ok(()),
         }
     }

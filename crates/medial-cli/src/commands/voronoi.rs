@@ -11,7 +11,7 @@ use medial::domain::Domain;
 use medial::engine::{self, exterior_frame};
 use medial::ops::{Voronoi, VoronoiError};
 use medial_io::svg::{Diagram, Options, write_diagrams};
-use medial_io::{Drawing, Feature, Format, geojson, voronoi_document};
+use medial_io::{Feature, Format, geojson, voronoi_document};
 use std::time::Duration;
 
 /// `medial voronoi`.
@@ -20,8 +20,7 @@ pub fn run(args: &VoronoiArgs) -> Result<Status, Failure> {
     let format = output_format(args)?;
     let input = timed(&mut run.stages.read, || Input::read(&args.input))?;
     let layer = timed(&mut run.stages.read, || layer(&input, &args.input, &args.common))?;
-    let mut sink =
-        Sink::create(args.output.as_deref(), format, Drawing::default(), layer.crs.clone())?;
+    let mut sink = Sink::create(args.output.as_deref(), format, String::new(), layer.crs.clone())?;
     let mut diagrams = Vec::new();
     let mut write = Duration::ZERO;
     let (at_once, threads) = run.threads(&layer);

@@ -9,7 +9,10 @@ mod measure;
 mod rest;
 mod voronoi;
 
-pub use centerline::{Centerline, CenterlineOptions, Widths, centerlines};
+pub use centerline::{
+    Centerline, CenterlineError, CenterlineOptions, Extension, LineOptions, Route, Widths,
+    centerlines, polylines,
+};
 pub use hierarchy::{Hierarchy, HierarchyError, Significance, Span};
 pub use measure::Measure;
 pub use rest::Pruned;
