@@ -1,5 +1,6 @@
 use medial::domain::{DomainError, Repair, Report as Repairs};
 use medial::engine::EngineError;
+use medial::ops::CenterlineError;
 use medial_io::{Json, Note};
 use serde::Serialize;
 
@@ -92,6 +93,17 @@ impl Entry {
             EngineError::Frame { .. } => "frame",
             EngineError::Cancelled => "cancelled",
             EngineError::TimeLimit => "time_limit",
+            _ => "internal",
+        };
+        Self::refused(code, error.to_string())
+    }
+
+    /// There is no line as asked for.
+    pub fn no_line(error: &CenterlineError) -> Self {
+        let code = match error {
+            CenterlineError::Outside { .. } => "point_outside",
+            CenterlineError::Apart { .. } => "points_apart",
+            CenterlineError::OnePlace { .. } => "points_in_one_place",
             _ => "internal",
         };
         Self::refused(code, error.to_string())

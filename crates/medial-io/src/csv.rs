@@ -1,12 +1,13 @@
-//! Comma-separated values: a row a path, the drawn line as WKT in the first column as GDAL
-//! writes and reads it.
+//! Comma-separated values: a row a path or a centerline, the drawn line as WKT in the first column as
+//! GDAL writes and reads it.
 
 use crate::number::push_shortest;
 use crate::path::{PathRecord, measure_columns, records};
-use crate::wkt::line_string;
+use crate::wkt::{drawn_line, line_string};
 use crate::{Drawing, Feature};
-use medial::axis::MedialAxis;
-use medial::ops::{Measure, Significance};
+use medial::axis::{Engine, MedialAxis};
+use medial::geom::Point;
+use medial::ops::{Centerline, Measure, Significance, Widths};
 use std::fmt::{Display, Write as _};
 
 const PLACE: [&str; 10] =
@@ -70,7 +71,57 @@ pub fn rows(
     table.text()
 }
 
-/// The identifier of a feature; a text without the quotes that JSON puts around it.
+const CENTERLINE: [&str; 11] = [
+    "WKT",
+    "feature",
+    "id",
+    "engine",
+    "rank",
+    "length",
+    "width_min",
+    "width_max",
+    "width_mean",
+    "closed",
+    "is_best",
+];
+
+/// The row of column names of centerlines.
+#[must_use]
+pub fn centerline_header() -> String {
+    let mut table = Table::new();
+    CENTERLINE.into_iter().for_each(|name| table.field(|out| out.push_str(name)));
+    table.end_row();
+    table.text()
+}
+
+/// The rows of the centerlines of one feature, as [`polylines`](medial::ops::polylines) has drawn them; with
+/// the distance of the boundary as third coordinate if asked for.
+#[must_use]
+pub fn centerline_rows(
+    source: &Feature,
+    engine: Engine,
+    lines: &[Centerline],
+    drawn: &[Vec<(Point, f64)>],
+    radius_as_z: bool,
+) -> String {
+    let id = id_of(source);
+    let mut table = Table::new();
+    for ((rank, line), points) in (1_usize..).zip(lines).zip(drawn) {
+        table.field(|out| drawn_line(out, points, radius_as_z));
+        table.whole(source.index);
+        table.field(|out| out.push_str(&id));
+        table.field(|out| out.push_str(engine.name()));
+        table.whole(rank);
+        let Widths { least, greatest, mean } = line.widths();
+        [line.length(), least, greatest, mean].into_iter().for_each(|value| table.number(value));
+        table.whole(line.is_closed());
+        table.whole(line.is_best);
+        table.end_row();
+    }
+    table.text()
+}
+
+/// The name of a feature. A text is written without the quotes JSON puts around it.
 pub(crate) fn id_of(source: &Feature) -> String {
     let id = source.id.as_ref().map_or("", |id| id.get());
     serde_json::from_str::<String>(id).unwrap_or_else(|_| id.to_owned())

@@ -6,7 +6,7 @@ use medial::axis::MedialAxis;
 use medial::domain::{self, Domain};
 use medial::engine::path_tracing;
 use medial::geom::Point;
-use medial::ops::{Centerline, CenterlineOptions, Hierarchy, centerlines};
+use medial::ops::{Centerline, CenterlineOptions, Extension, Hierarchy, centerlines};
 use support::random::{self, Family, Ground, Random};
 use support::shapes;
 
@@ -24,12 +24,13 @@ fn close(a: f64, b: f64) -> bool {
 fn an_l_has_one_line_around_its_corner() {
     // Arms of width 2, 10 and 8 long.
     let l = "POLYGON ((0 0, 10 0, 10 2, 2 2, 2 8, 0 8, 0 0))";
-    let options = CenterlineOptions { to_boundary: true, ..CenterlineOptions::default() };
+    let options =
+        CenterlineOptions { extension: Extension::Boundary, ..CenterlineOptions::default() };
     let lines = lines(l, &options);
     assert_eq!(lines.len(), 1);
     let line = &lines[0];
-    assert!(line.is_longest);
-    let mut ends = line.extensions.map(Option::unwrap);
+    assert!(line.is_best);
+    let mut ends = line.extensions.map(|end| end.unwrap().0);
     ends.sort_by(|a, b| a.x.total_cmp(&b.x));
     assert_eq!(ends, [Point::new(1.0, 8.0), Point::new(10.0, 1.0)]);
     // Around the corner at (2, 2) it is two quarters of parabolas over edges, 2 wide.
@@ -43,7 +44,8 @@ fn an_l_has_one_line_around_its_corner() {
 #[test]
 fn a_ring_without_ends_is_closed() {
     let frame = "POLYGON ((0 0, 9 0, 9 9, 0 9, 0 0), (3 3, 3 6, 6 6, 6 3, 3 3))";
-    let options = CenterlineOptions { to_boundary: true, ..CenterlineOptions::default() };
+    let options =
+        CenterlineOptions { extension: Extension::Boundary, ..CenterlineOptions::default() };
     let lines = lines(frame, &options);
     let line = &lines[0];
     assert_eq!(line.curves.first().unwrap().from(), line.curves.last().unwrap().to());
@@ -59,7 +61,11 @@ fn a_ring_without_ends_is_closed() {
 fn further_lines_are_tributaries() {
     // A T: the bar, then the stem.
     let t = "POLYGON ((0 10, 0 8, 9 8, 9 0, 11 0, 11 8, 20 8, 20 10, 0 10))";
-    let options = CenterlineOptions { count: 9, to_boundary: true, ..CenterlineOptions::default() };
+    let options = CenterlineOptions {
+        count: 9,
+        extension: Extension::Boundary,
+        ..CenterlineOptions::default()
+    };
     let lines = lines(t, &options);
     assert_eq!(lines.len(), 2);
     assert!(close(lines[0].length(), 20.0) || lines[0].length() > 19.9, "{}", lines[0].length());
@@ -80,9 +86,10 @@ fn arms_are_ends_and_not_the_far_side_of_a_ring() {
     let ring =
         "POLYGON ((0 0, 100 0, 100 100, 0 100, 0 62, -20 62, -20 58, 0 58, 0 42, -20 42, -20 38,
                 0 38, 0 0), (4 4, 4 96, 96 96, 96 4, 4 4))";
-    let options = CenterlineOptions { to_boundary: true, ..CenterlineOptions::default() };
+    let options =
+        CenterlineOptions { extension: Extension::Boundary, ..CenterlineOptions::default() };
     let lines = lines(ring, &options);
-    let mut ends = lines[0].extensions.map(Option::unwrap);
+    let mut ends = lines[0].extensions.map(|end| end.unwrap().0);
     ends.sort_by(|a, b| a.y.total_cmp(&b.y));
     assert_eq!(ends, [Point::new(-20.0, 40.0), Point::new(-20.0, 60.0)]);
 }
@@ -161,7 +168,7 @@ fn no_two_points_of_random_shapes_are_farther_apart() {
         // A closed line is all there is.
         let all: f64 = of.paths().iter().map(|path| of.curve(&path).length()).sum();
         let expected = if line.is_closed() { all } else { most };
-        assert!(line.is_longest, "{}", wkt());
+        assert!(line.is_best, "{}", wkt());
         assert!((length / expected - 1.0).abs() < 1e-12, "{length} of {expected}: {}", wkt());
     }
 }

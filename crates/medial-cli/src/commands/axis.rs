@@ -9,7 +9,7 @@ use medial::domain::Domain;
 use medial::engine::{self, EngineError, both_sides, exterior, interior};
 use medial::ops::{Hierarchy, Significance};
 use medial_io::svg::Options;
-use medial_io::{Drawing, Format};
+use medial_io::{Drawing, Format, csv};
 use std::io::IsTerminal as _;
 use std::path::Path;
 
@@ -42,8 +42,8 @@ pub fn run(args: &AxisArgs) -> Result<Status, Failure> {
         ..Options::default()
     };
     let crs = layer.crs.clone();
-    let output = args.output.as_deref();
-    let mut sink = Sink::of_measured(output, format, drawing, &args.measures, crs)?;
+    let columns = csv::header(&args.measures, drawing);
+    let mut sink = Sink::create(args.output.as_deref(), format, columns, crs)?;
     let mut scenes = Vec::new();
     let mut write = std::time::Duration::ZERO;
     let (at_once, threads) = run.threads(&layer);

@@ -52,7 +52,7 @@ impl Plan<'_> {
 
     /// A place for the records.
     pub fn sink(&self, format: Format, crs: Option<medial_io::Json>) -> Result<Sink, Failure> {
-        Sink::of_records(self.target.output.as_deref(), format, self.columns, crs)
+        Sink::create(self.target.output.as_deref(), format, record::header(self.columns), crs)
     }
 
     /// Calls `work` for each valid feature of an input and writes the records that it gives.

@@ -2,11 +2,11 @@ use crate::failure::Failure;
 use crate::output::Output;
 use medial::axis::{MedialAxis, Side};
 use medial::domain::Domain;
-use medial::ops::{Measure, Significance};
+use medial::ops::Significance;
 use medial_io::svg::{Options, Scene};
 use medial_io::{
-    Drawing, Feature, Format, Json, axis_document, csv, domain_tolerance, geojson, png, record,
-    svg, wkb, wkt,
+    Drawing, Feature, Format, Json, axis_document, csv, domain_tolerance, geojson, png, svg, wkb,
+    wkt,
 };
 use std::path::Path;
 
@@ -14,8 +14,8 @@ use std::path::Path;
 pub struct Sink {
     output: Output,
     format: Format,
-    /// The names of the columns, for CSV.
-    head: String,
+    /// The row of column names of CSV.
+    columns: String,
     crs: Option<Json>,
     begun: bool,
 }
@@ -77,7 +77,8 @@ fn encode_one(
     None
 }
 
-fn boundary(domain: &Domain) -> Vec<Vec<medial::geom::Point>> {
+/// The closed boundary walks of a domain.
+pub fn boundary(domain: &Domain) -> Vec<Vec<medial::geom::Point>> {
     let edges = |walk: &medial::domain::Walk| {
         let first = walk.first as usize;
         domain.edges()[first..first + walk.len as usize].iter().map(|edge| edge.start).collect()
@@ -89,33 +90,10 @@ impl Sink {
     pub fn create(
         path: Option<&Path>,
         format: Format,
-        drawing: Drawing,
+        columns: String,
         crs: Option<Json>,
     ) -> Result<Self, Failure> {
-        Self::of_measured(path, format, drawing, &[], crs)
-    }
-
-    /// The same for axes with the values of measures.
-    pub fn of_measured(
-        path: Option<&Path>,
-        format: Format,
-        drawing: Drawing,
-        measures: &[Measure],
-        crs: Option<Json>,
-    ) -> Result<Self, Failure> {
-        let head = csv::header(measures, drawing);
-        Ok(Self { output: Output::create(path)?, format, head, crs, begun: false })
-    }
-
-    /// The same for records with these values.
-    pub fn of_records(
-        path: Option<&Path>,
-        format: Format,
-        columns: &[&str],
-        crs: Option<Json>,
-    ) -> Result<Self, Failure> {
-        let head = record::header(columns);
-        Ok(Self { output: Output::create(path)?, format, head, crs, begun: false })
+        Ok(Self { output: Output::create(path)?, format, columns, crs, begun: false })
     }
 
     /// Writes what [`encode`] made of axes that follow one another.
@@ -136,7 +114,7 @@ impl Sink {
         }
         match self.format {
             Format::GeoJson => self.output.write(geojson::header(self.crs.as_ref()).as_bytes()),
-            Format::Csv => self.output.write(self.head.as_bytes()),
+            Format::Csv => self.output.write(self.columns.as_bytes()),
             _ => Ok(()),
         }
     }

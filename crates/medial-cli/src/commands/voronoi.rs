@@ -10,7 +10,7 @@ use medial::domain::Domain;
 use medial::engine::{self, exterior_frame};
 use medial::ops::{Voronoi, VoronoiError};
 use medial_io::svg::{Diagram, Options, write_diagrams};
-use medial_io::{Drawing, Feature, Format, geojson, voronoi_document};
+use medial_io::{Feature, Format, geojson, voronoi_document};
 use std::time::Duration;
 
 /// `medial voronoi`.
@@ -19,8 +19,7 @@ pub fn run(args: &VoronoiArgs) -> Result<Status, Failure> {
     let format = output_format(args)?;
     let input = run.open(&args.input)?;
     let layer = timed(&mut run.stages.read, || input.layer())?;
-    let mut sink =
-        Sink::create(args.output.as_deref(), format, Drawing::default(), layer.crs.clone())?;
+    let mut sink = Sink::create(args.output.as_deref(), format, String::new(), layer.crs.clone())?;
     let mut diagrams = Vec::new();
     let mut write = Duration::ZERO;
     let (at_once, threads) = run.threads(&layer);

@@ -4,7 +4,7 @@ use crate::sheet::Sheet;
 use crate::style::{AXIS, FAINT, FINE};
 use medial::axis::{Curve, MedialAxis};
 use medial::domain::{Domain, Options};
-use medial::ops::{CenterlineOptions, Hierarchy, Measure, centerlines};
+use medial::ops::{CenterlineOptions, Extension, Hierarchy, Measure, centerlines};
 use medial_io::{Format, read};
 use std::fs;
 
@@ -29,7 +29,8 @@ fn draw() -> Fallible<String> {
     let shape = Shape::of(Domain::from_polygons(&feature.polygons, &Options::default())?)?;
     let Shape { domain, axis, .. } = &shape;
     let pruned = Hierarchy::new(domain, axis)?.pruned(Measure::RelativeExcess, LEAST).axis;
-    let options = CenterlineOptions { to_boundary: true, ..CenterlineOptions::default() };
+    let extension = Extension::Boundary;
+    let options = CenterlineOptions { extension, ..CenterlineOptions::default() };
     let lines = centerlines(domain, axis, &options)?;
     let window = shape.window(0.3);
     let curves = |axis: &MedialAxis| -> Vec<Curve> {
@@ -49,7 +50,7 @@ fn draw() -> Fallible<String> {
         panel.curves(&line.curves, AXIS);
         let ends = [line.curves.first().map(Curve::from), line.curves.last().map(Curve::to)];
         for (end, beyond) in ends.into_iter().zip(line.extensions) {
-            if let (Some(end), Some(beyond)) = (end, beyond) {
+            if let (Some(end), Some((beyond, _))) = (end, beyond) {
                 panel.line(end, beyond, AXIS);
             }
         }

@@ -3,24 +3,25 @@
 use super::write::{COMMON, SEPARATOR, beginning, number, position};
 use crate::Feature;
 use medial::axis::Engine;
+use medial::geom::Point;
 use medial::ops::{Centerline, Widths};
 use std::io::Write as _;
 
 /// The properties of lines besides.
 const OURS: [&str; 8] =
-    ["rank", "length", "width_min", "width_max", "width_mean", "closed", "is_longest", "widths"];
+    ["rank", "length", "width_min", "width_max", "width_mean", "closed", "is_best", "widths"];
 
-/// Appends the lines of one feature, each behind a [`SEPARATOR`], drawn within `tolerance`; with the
-/// distance of the boundary as third coordinate if asked for.
+/// Appends the lines of one feature, each behind a [`SEPARATOR`], as [`polylines`](medial::ops::polylines)
+/// has drawn them; with the distance of the boundary as third coordinate if asked for.
 pub fn centerline_features(
     out: &mut Vec<u8>,
     source: &Feature,
     engine: Engine,
     lines: &[Centerline],
-    tolerance: f64,
+    drawn: &[Vec<(Point, f64)>],
     radius_as_z: bool,
 ) {
-    write(out, source, engine, lines, (tolerance, radius_as_z), [SEPARATOR, b""]);
+    write(out, source, engine, lines, (drawn, radius_as_z), [SEPARATOR, b""]);
 }
 
 /// Appends the same features, each on a line of its own.
@@ -29,10 +30,10 @@ pub fn centerline_lines(
     source: &Feature,
     engine: Engine,
     lines: &[Centerline],
-    tolerance: f64,
+    drawn: &[Vec<(Point, f64)>],
     radius_as_z: bool,
 ) {
-    write(out, source, engine, lines, (tolerance, radius_as_z), [b"", b"\n"]);
+    write(out, source, engine, lines, (drawn, radius_as_z), [b"", b"\n"]);
 }
 
 /// Writes each feature between two texts.
@@ -41,13 +42,12 @@ fn write(
     source: &Feature,
     engine: Engine,
     lines: &[Centerline],
-    (tolerance, radius_as_z): (f64, bool),
+    (drawn, radius_as_z): (&[Vec<(Point, f64)>], bool),
     [before, after]: [&[u8]; 2],
 ) {
     let ours = |name: &str| COMMON.contains(&name) || OURS.contains(&name);
     let common = beginning(source, engine, ours, before);
-    for (rank, line) in (1..).zip(lines) {
-        let points = line.polyline(tolerance);
+    for ((rank, line), points) in (1..).zip(lines).zip(drawn) {
         out.extend_from_slice(&common);
         // Memory takes all that is written.
         let _ = write!(out, "\"rank\":{rank},\"length\":");
@@ -57,8 +57,8 @@ fn write(
             let _ = write!(out, ",\"width_{name}\":");
             number(out, value);
         }
-        let (closed, longest) = (line.is_closed(), line.is_longest);
-        let _ = write!(out, ",\"closed\":{closed},\"is_longest\":{longest},\"widths\":[");
+        let (closed, best) = (line.is_closed(), line.is_best);
+        let _ = write!(out, ",\"closed\":{closed},\"is_best\":{best},\"widths\":[");
         for (k, (_, radius)) in points.iter().enumerate() {
             out.extend_from_slice(if k > 0 { b"," } else { b"" });
             number(out, 2.0 * radius);

@@ -14,10 +14,10 @@ const VERTEX_ZONE: &str = "#fde3cf";
 const EDGE_GOVERNOR: &str = "#1976d2";
 const VERTEX_GOVERNOR: &str = "#d84315";
 
-pub(super) fn domain(canvas: &mut Canvas, scenes: &[Scene]) {
+pub(super) fn domain<'s>(canvas: &mut Canvas, shapes: impl Iterator<Item = &'s Vec<Vec<Point>>>) {
     canvas.open("domain", &format!("fill=\"{GROUND}\" fill-rule=\"evenodd\""));
-    for scene in scenes {
-        let data = rings(canvas, &scene.boundary);
+    for shape in shapes {
+        let data = rings(canvas, shape);
         canvas.path(&data, "");
     }
     canvas.close();

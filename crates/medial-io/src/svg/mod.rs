@@ -6,6 +6,7 @@
 //! renderer draws the same.
 
 mod canvas;
+mod centerline;
 mod frame;
 mod layers;
 mod legend;
@@ -13,6 +14,7 @@ mod lettering;
 mod palette;
 mod voronoi;
 
+pub use centerline::{MainLines, write_lines};
 pub use voronoi::{Diagram, write_diagrams};
 
 use crate::text::escaped;
@@ -98,7 +100,7 @@ pub fn write(scenes: &[Scene], options: &Options) -> String {
     let frame = Frame::around(scenes, options);
     let mut canvas = Canvas::new(frame, options.lettering);
     let radius_max = scenes.iter().map(|s| s.axis.radius_max()).fold(0.0, f64::max);
-    layers::domain(&mut canvas, scenes);
+    layers::domain(&mut canvas, scenes.iter().map(|scene| &scene.boundary));
     for extra in [Extra::Cells, Extra::Zones, Extra::Disks] {
         if options.draw.contains(&extra) {
             match extra {

@@ -36,9 +36,7 @@ pub fn write(axis: &MedialAxis, drawing: Drawing) -> String {
 #[must_use]
 pub fn write_lines(lines: &[Vec<(Point, f64)>], radius_as_z: bool) -> String {
     let mut out = String::from(if radius_as_z { "MULTILINESTRING Z " } else { "MULTILINESTRING " });
-    group(&mut out, lines, |out, line| {
-        group(out, line, |out, &(p, radius)| point(out, p, radius_as_z.then_some(radius)));
-    });
+    group(&mut out, lines, |out, line| points(out, line, radius_as_z));
     out.push('\n');
     out
 }
@@ -64,6 +62,16 @@ pub(crate) fn shape(out: &mut String, shape: &Shape) {
             }
         },
     }
+}
+
+/// Points with a radius as LINESTRING.
+pub(crate) fn drawn_line(out: &mut String, line: &[(Point, f64)], radius_as_z: bool) {
+    out.push_str(if radius_as_z { "LINESTRING Z " } else { "LINESTRING " });
+    points(out, line, radius_as_z);
+}
+
+fn points(out: &mut String, line: &[(Point, f64)], radius_as_z: bool) {
+    group(out, line, |out, &(p, radius)| point(out, p, radius_as_z.then_some(radius)));
 }
 
 /// About as many bytes as a line takes.

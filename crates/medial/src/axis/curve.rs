@@ -361,13 +361,28 @@ impl Curve {
     /// ```
     #[must_use]
     pub fn distance(&self, p: Point) -> f64 {
-        let ends = (p - self.from).norm().min((p - self.to).norm());
-        let away = |u: f64| (p - self.point_at(u)).norm();
-        match self.form {
+        (p - self.point_at(self.nearest_parameter(p))).norm()
+    }
+
+    /// The parameter of the point of the curve that is nearest to `p`, rounded; of several the first.
+    ///
+    /// ```
+    /// use medial::axis::{Curve, Site};
+    /// use medial::geom::Point;
+    /// // The apex of the parabola lies under its focus.
+    /// let edge = Site::edge(Point::new(-9.0, 0.0), Point::new(9.0, 0.0));
+    /// let corner = Site::vertex(Point::new(0.0, 2.0));
+    /// let ends = [-2.0, 2.0].map(|x| (Point::new(x, 2.0), 2.0));
+    /// let curve = Curve::new(&corner, &edge, ends[0], ends[1]);
+    /// assert_eq!(curve.nearest_parameter(Point::new(0.0, -5.0)), 0.5);
+    /// assert_eq!(curve.nearest_parameter(Point::new(9.0, 3.0)), 1.0);
+    /// ```
+    #[must_use]
+    pub fn nearest_parameter(&self, p: Point) -> f64 {
+        let feet = match self.form {
             Form::Linear | Form::Corners { .. } => {
                 let d = self.to - self.from;
-                let u = d.dot(p - self.from) / d.norm2();
-                if 0.0 < u && u < 1.0 { ends.min(away(u)) } else { ends }
+                [d.dot(p - self.from) / d.norm2(); 3]
             }
             Form::Parabola { d, x: [x1, x2], focus, tangent } => {
                 // Where the curve is square to the way to p = (u, v) over the foot of the focus:
@@ -376,13 +391,18 @@ impl Curve {
                 let (d, a, b) = (d / size, x1 / size, x2 / size);
                 let q = (p - focus) * (1.0 / size);
                 let (u, v) = (tangent.dot(q), tangent.perp().dot(q) + d);
-                let feet = cubic_roots(d * (3.0 * d - 2.0 * v), -2.0 * u * d * d);
-                feet.into_iter()
-                    .map(|x| (x - a) / (b - a))
-                    .filter(|&share| 0.0 < share && share < 1.0)
-                    .fold(ends, |least, share| least.min(away(share)))
+                cubic_roots(d * (3.0 * d - 2.0 * v), -2.0 * u * d * d).map(|x| (x - a) / (b - a))
+            }
+        };
+        let away = |u: f64| (p - self.point_at(u)).norm();
+        let mut nearest = (0.0, away(0.0));
+        for u in feet.into_iter().filter(|&u| 0.0 < u && u < 1.0).chain([1.0]) {
+            let distance = away(u);
+            if distance < nearest.1 {
+                nearest = (u, distance);
             }
         }
+        nearest.0
     }
 
     /// The part between parameters `u` and `v`, as a curve of its own.

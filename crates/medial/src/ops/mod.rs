@@ -21,7 +21,10 @@ mod smooth;
 mod voronoi;
 
 pub use branches::{Bend, BoundaryPiece, Branch, BranchPiece, Extent, Primitive, Trend, branches};
-pub use centerline::{Centerline, CenterlineOptions, Widths, centerlines};
+pub use centerline::{
+    Centerline, CenterlineError, CenterlineOptions, Extension, LineOptions, Route, Widths,
+    centerlines, polylines,
+};
 pub use compress::{
     CompressError, Compressed, Corners, DiskGraph, GridDisk, RebuildError, Run, compress,
 };

@@ -1,0 +1,315 @@
+//! Graphs whose edges are pieces of the paths of an axis, and ways through them.
+
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
+
+use super::line::Centerline;
+use crate::axis::MedialAxis;
+use crate::geom::Point;
+use crate::ops::groups::Groups;
+
+/// A graph of pieces of paths.
+pub(super) struct Graph<'a> {
+    axis: &'a MedialAxis,
+    pieces: Vec<Piece>,
+    /// The pieces at each node.
+    incidence: Groups,
+    lengths: Vec<f64>,
+    used: Vec<bool>,
+    /// The place of each node in its component, once that is known.
+    places: Vec<u32>,
+    /// Whether nothing was left out that could have made a better way.
+    pub is_whole: bool,
+}
+
+/// A part of a path, between two nodes.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Piece {
+    pub path: u32,
+    /// The parameters of its ends, in ascending order.
+    pub span: [f64; 2],
+    pub from: u32,
+    pub to: u32,
+}
+
+/// Pieces that are gathered for a graph. Keypoints are nodes under their own numbers; more nodes lie where
+/// paths are cut.
+pub(super) struct Pieces<'a> {
+    pub axis: &'a MedialAxis,
+    pub pieces: Vec<Piece>,
+    n_nodes: u32,
+}
+
+/// A way through a graph.
+#[derive(Default)]
+pub(super) struct Way {
+    /// Its pieces, each with whether it is run through from its start.
+    pub pieces: Vec<(u32, bool)>,
+    /// How good it is, to be compared with others.
+    pub value: f64,
+    /// Whether there is none better for sure.
+    pub is_best: bool,
+}
+
+/// Shortest ways from one node to all others of its component, by their places there.
+pub(super) struct Ways {
+    start: u32,
+    /// Infinite where there is none.
+    distances: Vec<f64>,
+    /// The piece by which each is reached.
+    last: Vec<u32>,
+}
+
+pub(super) const NONE: u32 = u32::MAX;
+
+impl<'a> Pieces<'a> {
+    pub fn of(axis: &'a MedialAxis) -> Self {
+        Self { axis, pieces: Vec::new(), n_nodes: axis.keypoints().len() as u32 }
+    }
+
+    /// Adds the part of a path from the first of some ascending parameters to the last one, cut at those in
+    /// between; gives the nodes there.
+    pub fn add(&mut self, path: u32, at: &[f64]) -> Vec<u32> {
+        let ends = self.axis.paths().at(path);
+        let mut node = |u: f64| {
+            if u <= 0.0 {
+                return ends.from;
+            }
+            if u >= 1.0 {
+                return ends.to;
+            }
+            self.n_nodes += 1;
+            self.n_nodes - 1
+        };
+        let nodes: Vec<u32> = at.iter().map(|&u| node(u)).collect();
+        for (span, nodes) in at.windows(2).zip(nodes.windows(2)) {
+            let (span, [from, to]) = ([span[0], span[1]], [nodes[0], nodes[1]]);
+            self.pieces.push(Piece { path, span, from, to });
+        }
+        nodes
+    }
+}
+
+impl<'a> Graph<'a> {
+    /// The graph of some paths of an axis as they are.
+    pub fn whole(axis: &'a MedialAxis, paths: &[u32]) -> Self {
+        let mut pieces = Pieces::of(axis);
+        for &path in paths {
+            pieces.add(path, &[0.0, 1.0]);
+        }
+        Self::new(pieces)
+    }
+
+    pub fn new(pieces: Pieces<'a>) -> Self {
+        let Pieces { axis, pieces, n_nodes } = pieces;
+        let curve = |piece: &Piece| {
+            let [from, to] = piece.span;
+            axis.curve(&axis.paths().at(piece.path)).piece(from, to)
+        };
+        let lengths = pieces.iter().map(|piece| curve(piece).length()).collect();
+        let ends = || (0..).zip(&pieces).flat_map(|(k, piece)| [(piece.from, k), (piece.to, k)]);
+        let incidence = Groups::new(n_nodes as usize, ends);
+        let (used, places) = (vec![false; pieces.len()], vec![NONE; n_nodes as usize]);
+        Self { axis, pieces, incidence, lengths, used, places, is_whole: true }
+    }
+
+    /// All nodes, also those without a piece.
+    pub fn nodes(&self) -> std::ops::Range<u32> {
+        0..self.places.len() as u32
+    }
+
+    /// The pieces at a node that are left.
+    pub fn pieces_at(&self, node: u32) -> impl Iterator<Item = u32> {
+        self.incidence.of(node).iter().copied().filter(|&piece| !self.used[piece as usize])
+    }
+
+    /// How many pieces end at a node, of those that are left.
+    pub fn degree(&self, node: u32) -> usize {
+        self.pieces_at(node).count()
+    }
+
+    pub fn length(&self, piece: u32) -> f64 {
+        self.lengths[piece as usize]
+    }
+
+    /// Where the first piece at a node has it.
+    pub fn position(&self, node: u32) -> Option<Point> {
+        let number = *self.incidence.of(node).first()?;
+        let Piece { path, span, .. } = self.pieces[number as usize];
+        let end = usize::from(!self.starts_at(number, node));
+        Some(self.axis.curve(&self.axis.paths().at(path)).point_at(span[end]))
+    }
+
+    pub fn starts_at(&self, piece: u32, node: u32) -> bool {
+        self.pieces[piece as usize].from == node
+    }
+
+    pub fn other_end(&self, piece: u32, node: u32) -> u32 {
+        let Piece { from, to, .. } = self.pieces[piece as usize];
+        if from == node { to } else { from }
+    }
+
+    /// The place of a node in its component.
+    pub fn place(&self, node: u32) -> usize {
+        self.places[node as usize] as usize
+    }
+
+    /// Takes the pieces of a way out of the graph.
+    pub fn take(&mut self, way: &Way) {
+        for &(piece, _) in &way.pieces {
+            self.used[piece as usize] = true;
+        }
+    }
+
+    /// The components with a piece left in which these nodes lie. Whatever these nodes were joined to before
+    /// is among them.
+    pub fn components(&mut self, nodes: impl Iterator<Item = u32> + Clone) -> Vec<Vec<u32>> {
+        let mut list = Vec::new();
+        for node in nodes.clone() {
+            self.places[node as usize] = NONE;
+        }
+        for start in nodes {
+            if self.places[start as usize] != NONE || self.pieces_at(start).next().is_none() {
+                continue;
+            }
+            self.places[start as usize] = 0;
+            let mut component = vec![start];
+            let mut next = 0;
+            while let Some(&node) = component.get(next) {
+                next += 1;
+                for &piece in self.incidence.of(node) {
+                    let other = self.other_end(piece, node);
+                    if !self.used[piece as usize] && self.places[other as usize] == NONE {
+                        self.places[other as usize] = component.len() as u32;
+                        component.push(other);
+                    }
+                }
+            }
+            list.push(component);
+        }
+        list
+    }
+
+    /// The shortest ways from a node of a component of so many.
+    pub fn ways_from(&self, start: u32, n: usize) -> Ways {
+        let mut ways = Ways { start, distances: vec![f64::INFINITY; n], last: vec![NONE; n] };
+        ways.distances[self.place(start)] = 0.0;
+        // Positive numbers are in the order of their bits.
+        let mut heap = BinaryHeap::from([Reverse((0_u64, start))]);
+        while let Some(Reverse((bits, node))) = heap.pop() {
+            let distance = f64::from_bits(bits);
+            if distance > ways.distances[self.place(node)] {
+                continue;
+            }
+            for piece in self.pieces_at(node) {
+                let other = self.other_end(piece, node);
+                let there = distance + self.length(piece);
+                if there < ways.distances[self.place(other)] {
+                    ways.distances[self.place(other)] = there;
+                    ways.last[self.place(other)] = piece;
+                    heap.push(Reverse((there.to_bits(), other)));
+                }
+            }
+        }
+        ways
+    }
+
+    /// How far a node is by these ways.
+    pub fn distance(&self, ways: &Ways, node: u32) -> f64 {
+        ways.distances[self.place(node)]
+    }
+
+    /// Of some nodes of a component the one that is farthest by these ways; of equal ones the first.
+    pub fn farthest(&self, nodes: &[u32], ways: &Ways) -> (u32, f64) {
+        let mut best = (nodes[0], 0.0);
+        for &node in nodes {
+            let distance = self.distance(ways, node);
+            if distance > best.1 {
+                best = (node, distance);
+            }
+        }
+        best
+    }
+
+    /// The pieces on the way back from a node to where the ways start, each with the end nearer to the
+    /// start.
+    pub fn back(&self, ways: &Ways, from: u32) -> Vec<(u32, u32)> {
+        let mut back = Vec::new();
+        let mut node = from;
+        while node != ways.start {
+            let piece = ways.last[self.place(node)];
+            node = self.other_end(piece, node);
+            back.push((piece, node));
+        }
+        back
+    }
+
+    /// The way from the start of these ways to a node.
+    pub fn way(&self, ways: &Ways, to: u32) -> Way {
+        let back = self.back(ways, to).into_iter().rev();
+        let pieces = back.map(|(piece, from)| (piece, self.starts_at(piece, from))).collect();
+        Way { pieces, value: self.distance(ways, to), is_best: self.is_whole }
+    }
+
+    /// A way as a line that goes on nowhere. Pieces of one path make one curve.
+    pub fn line(&self, way: &Way) -> Centerline {
+        let mut curves = Vec::new();
+        let mut pieces =
+            way.pieces.iter().map(|&(k, forwards)| (self.pieces[k as usize], forwards));
+        let mut next = pieces.next();
+        while let Some((piece, forwards)) = next {
+            let [mut low, mut high] = piece.span;
+            next = pieces.next();
+            while let Some((more, same)) = next
+                && (more.path, same) == (piece.path, forwards)
+                && more.span[usize::from(!forwards)] == [low, high][usize::from(forwards)]
+            {
+                (low, high) = (low.min(more.span[0]), high.max(more.span[1]));
+                next = pieces.next();
+            }
+            let curve = self.axis.curve(&self.axis.paths().at(piece.path)).piece(low, high);
+            curves.push(if forwards { curve } else { curve.reversed() });
+        }
+        let is_end = |piece: Option<&(u32, bool)>, first: bool| {
+            piece.is_some_and(|&(k, forwards)| {
+                let Piece { from, to, .. } = self.pieces[k as usize];
+                self.incidence.of(if forwards == first { from } else { to }).len() == 1
+            })
+        };
+        let is_free = [is_end(way.pieces.first(), true), is_end(way.pieces.last(), false)];
+        Centerline { curves, extensions: [None; 2], is_best: way.is_best, is_free }
+    }
+}
+
+/// The paths of all components of an axis of which a single point is left.
+pub(super) fn paths_of_points(pruned: &MedialAxis, axis: &MedialAxis) -> Vec<u32> {
+    let degrees = pruned.degrees();
+    if !degrees.contains(&0) {
+        return Vec::new();
+    }
+    let mut path_of = vec![NONE; axis.sites().len()];
+    for (number, path) in (0..).zip(axis.paths()) {
+        path_of[path.left as usize] = number;
+        path_of[path.right as usize] = number;
+    }
+    // Sites that are left are in the same order.
+    let mut all = (0_u32..).zip(axis.sites().iter());
+    let same = |site| all.find(|(_, other)| *other == site).map(|(number, _)| number);
+    let numbers: Vec<Option<u32>> = pruned.sites().iter().map(same).collect();
+    let alone = |&(_, degree): &(u32, u32)| degree == 0;
+    let tips = (0..).zip(degrees).filter(alone).map(|(tip, _)| pruned.governors(tip)[0]);
+    let paths = tips.filter_map(|site| numbers[site as usize].map(|k| path_of[k as usize]));
+    let starts = paths.filter(|&path| path != NONE).map(|path| axis.paths().at(path).from);
+    let incidence = Groups::paths_at_keypoints(axis);
+    let mut is_met = vec![false; axis.paths().len()];
+    let mut left: Vec<u32> = starts.collect();
+    while let Some(keypoint) = left.pop() {
+        for &number in incidence.of(keypoint) {
+            if !std::mem::replace(&mut is_met[number as usize], true) {
+                let path = axis.paths().at(number);
+                left.extend([path.from, path.to]);
+            }
+        }
+    }
+    (0..).zip(is_met).filter(|(_, is_met)| *is_met).map(|(path, _)| path).collect()
+}

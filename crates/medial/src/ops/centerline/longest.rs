@@ -1,0 +1,73 @@
+//! The longest way through a graph.
+//!
+//! # Method
+//! In a tree the node farthest from any node is an end of a longest path. With cycles the nodes far from
+//! the middle of such a way are tried until no pair that is left can be farther apart.
+
+use super::graph::{Graph, Way};
+
+/// Nodes that are visited at most to find the longest way around cycles, from all points together that
+/// are tried as its end: about a second.
+const MOST_VISITED: usize = 1 << 22;
+
+/// The way between those two ends of a component that are farthest apart. If it has one end only, from
+/// there to the farthest node; if none, between the farthest two, or all of it, if it is a single cycle.
+pub(super) fn way(graph: &Graph, component: &[u32]) -> Option<Way> {
+    let n = component.len();
+    let n_pieces = component.iter().map(|&k| graph.degree(k)).sum::<usize>() / 2;
+    if component.iter().all(|&k| graph.degree(k) == 2) {
+        return Some(cycle(graph, component[0]));
+    }
+    let mut ends: Vec<u32> = component.iter().copied().filter(|&k| graph.degree(k) == 1).collect();
+    let lone = (ends.len() == 1).then(|| ends[0]);
+    if ends.len() < 2 {
+        ends = component.to_vec();
+    }
+    let start = lone.unwrap_or_else(|| graph.farthest(&ends, &graph.ways_from(component[0], n)).0);
+    let mut best = graph.ways_from(start, n);
+    let (mut end, mut length) = graph.farthest(&ends, &best);
+    let mut is_best = true;
+    if n_pieces >= n && lone.is_none() {
+        // Around cycles: from the middle of the way found, no two ends are farther apart than twice
+        // the farther of the two.
+        let back = graph.back(&best, end);
+        let mut middle = back.iter().map(|&(_, node)| node);
+        let half = middle.find(|&node| graph.distance(&best, node) * 2.0 <= length);
+        let around = graph.ways_from(half.unwrap_or(end), n);
+        let distance = |node: u32| graph.distance(&around, node);
+        let mut order = ends.clone();
+        order.sort_by(|&a, &b| distance(b).total_cmp(&distance(a)).then(a.cmp(&b)));
+        for (tried, &node) in order.iter().enumerate() {
+            if 2.0 * distance(node) <= length {
+                break;
+            }
+            if tried * n > MOST_VISITED {
+                is_best = false;
+                break;
+            }
+            let ways = graph.ways_from(node, n);
+            let (other, there) = graph.farthest(&ends, &ways);
+            if there > length {
+                (best, end, length) = (ways, other, there);
+            }
+        }
+    }
+    (length > 0.0).then(|| Way { is_best, ..graph.way(&best, end) })
+}
+
+/// A closed way through nodes with two pieces each.
+fn cycle(graph: &Graph, start: u32) -> Way {
+    let mut way = Way { is_best: true, ..Way::default() };
+    let mut node = start;
+    loop {
+        let last = way.pieces.last().map(|&(piece, _)| piece);
+        let next = graph.pieces_at(node).find(|&piece| Some(piece) != last);
+        let Some(piece) = next.or_else(|| graph.pieces_at(node).next()) else { return way };
+        way.pieces.push((piece, graph.starts_at(piece, node)));
+        way.value += graph.length(piece);
+        node = graph.other_end(piece, node);
+        if node == start {
+            return way;
+        }
+    }
+}
