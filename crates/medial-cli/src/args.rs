@@ -57,6 +57,7 @@ Examples:
   medial axis fixtures/river.geojson -o river.png --draw disks
   medial axis fixtures/river.geojson -o river.axis.json
   medial axis fixtures/river.geojson -o river.csv --report report.json --timings timings.json
+  medial axis fixtures/river.geojson -o edges.csv --nodes nodes.csv
   medial axis fixtures/shapes/plus_of_unit_squares.wkt --keypoints --z radius -o plus.geojson
   medial axis - --to wkt < fixtures/shapes/l_with_unit_arms.wkt
   medial axis fixtures/shapes/l_with_unit_arms.wkt --side both --frame 2 -o l.svg
@@ -121,6 +122,10 @@ pub struct AxisArgs {
     /// Write the radius as third coordinate (geojson, geojsonl, wkt, wkb, csv)
     #[arg(long, value_name = "VALUE")]
     pub z: Option<Height>,
+    /// Write the keypoints to this file besides, as a CSV table of nodes; with --to csv the paths are its
+    /// edges, by the columns `from` and `to`
+    #[arg(long, value_name = "FILE")]
+    pub nodes: Option<PathBuf>,
     /// What a picture shows besides, separated by commas: disks, footpoints, cells, zones,
     /// governors
     #[arg(long, value_name = "WHAT", value_delimiter = ',', value_parser = extra)]

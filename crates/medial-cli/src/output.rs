@@ -49,9 +49,10 @@ impl Output {
         Ok(Self::File { text: io::BufWriter::with_capacity(BUFFER, file), path })
     }
 
+    /// Adds to the results; on standard output they are there for whoever reads it.
     pub fn write(&mut self, bytes: &[u8]) -> Result<(), Failure> {
         let result = match self {
-            Self::Stream(out) => out.write_all(bytes),
+            Self::Stream(out) => out.write_all(bytes).and_then(|()| out.flush()),
             Self::Direct(out, _) => out.write_all(bytes),
             Self::File { text, .. } => text.write_all(bytes),
         };

@@ -29,9 +29,9 @@ fn branches_below_an_error_are_removed() {
 #[test]
 fn every_measure_is_known() {
     let measures = "excess relative_excess potential chord circularity erosion length angle \
-                    half_chord radius";
+                    half_chord radius prominence";
     for name in measures.split_whitespace() {
-        let pruned = axis(&["--prune", &format!("{name}=1e9")]);
+        let pruned = axis(&["-q", "--prune", &format!("{name}=1e9")]);
         // The root stays.
         assert_eq!(pruned["keypoints"].as_array().unwrap().len(), 1, "{name}");
         assert_eq!(pruned["keypoints"][0]["x"], 3.0, "{name}");
@@ -82,4 +82,37 @@ fn both_sides_are_pruned_within_any_frame() {
         medial_with(&["prune", "-", "--side", "both", "--max-error", "3", "--to", "json"], dent);
     assert_eq!((pruned.status, pruned.errors.as_str()), (Some(0), ""));
     assert_eq!(pruned.text().lines().count(), 2);
+}
+
+#[test]
+fn axis_documents_are_pruned_like_their_polygons() {
+    let whole = medial_with(&["axis", "-", "--to", "json"], RECTANGLE);
+    let words = ["prune", "-", "--max-error", "0.5", "--to", "json"];
+    let [one, other] = [whole.text(), RECTANGLE].map(|text| medial_with(&words, text));
+    assert_eq!((one.status, one.errors.as_str(), one.text()), (Some(0), "", other.text()));
+    // Values of what was pruned before are not known.
+    let twice = medial_with(&words, one.text());
+    assert_eq!(twice.status, Some(1));
+    assert!(twice.errors.contains("pruned"), "{}", twice.errors);
+}
+
+#[test]
+fn measures_that_do_not_grow_warn() {
+    let angle = medial_with(&["prune", "-", "--prune", "angle=1", "--to", "wkt"], RECTANGLE);
+    assert_eq!(angle.status, Some(0));
+    assert!(angle.errors.starts_with("warning: angle does not grow"), "{}", angle.errors);
+    let quiet = medial_with(&["prune", "-", "--prune", "angle=1", "-q", "--to", "wkt"], RECTANGLE);
+    assert_eq!(quiet.errors, "");
+}
+
+#[test]
+fn nodes_and_edges_are_tables() {
+    let folder = tempfile::tempdir().unwrap();
+    let nodes = folder.path().join("nodes.csv").display().to_string();
+    let edges = medial_with(&["axis", "-", "--to", "csv", "--nodes", &nodes], RECTANGLE);
+    assert_eq!((edges.status, edges.errors.as_str()), (Some(0), ""));
+    let nodes = std::fs::read_to_string(nodes).unwrap();
+    assert_eq!((edges.text().lines().count(), nodes.lines().count()), (1 + 5, 1 + 6));
+    assert_eq!(nodes.lines().next(), Some("WKT,feature,id,keypoint,x,y,radius,kind,degree,side"));
+    assert!(nodes.contains("POINT (1 1),0,,") && nodes.contains(",1,1,1,junction,3,interior"));
 }

@@ -71,6 +71,44 @@ pub fn rows(
     table.text()
 }
 
+const NODE: [&str; 10] =
+    ["WKT", "feature", "id", "keypoint", "x", "y", "radius", "kind", "degree", "side"];
+
+/// The row of column names of keypoints, the nodes of the graph whose edges are the paths.
+#[must_use]
+pub fn node_header() -> String {
+    let mut table = Table::new();
+    NODE.into_iter().for_each(|name| table.field(|out| out.push_str(name)));
+    table.end_row();
+    table.text()
+}
+
+/// The rows of the keypoints of one axis, with the numbers that rows of paths have in `from` and `to`.
+#[must_use]
+pub fn node_rows(source: &Feature, axis: &MedialAxis) -> String {
+    let id = id_of(source);
+    let mut table = Table::new();
+    for ((k, keypoint), degree) in axis.keypoints().iter().enumerate().zip(axis.degrees()) {
+        let Point { x, y } = keypoint.position;
+        table.field(|out| {
+            out.push_str("POINT (");
+            push_shortest(out, x);
+            out.push(' ');
+            push_shortest(out, y);
+            out.push(')');
+        });
+        table.whole(source.index);
+        table.field(|out| out.push_str(&id));
+        table.whole(k);
+        [x, y, keypoint.radius].into_iter().for_each(|value| table.number(value));
+        table.field(|out| out.push_str(keypoint.kind.name()));
+        table.whole(degree);
+        table.field(|out| out.push_str(axis.side.name()));
+        table.end_row();
+    }
+    table.text()
+}
+
 const CENTERLINE: [&str; 11] = [
     "WKT",
     "feature",

@@ -266,3 +266,93 @@ fn every_fixture_can_be_pruned() {
         }
     }
 }
+
+/// When each keypoint burns if the axis is cut into short fuses and all fires go on by one step at a time;
+/// nothing where none comes.
+fn simulated(axis: &MedialAxis, step: f64) -> Vec<Option<f64>> {
+    // The fuses at each node; keypoints come first.
+    let mut fuses: Vec<Vec<usize>> = vec![Vec::new(); axis.keypoints().len()];
+    for path in axis.paths() {
+        let n = (axis.curve(&path).length() / step).round().max(1.0) as usize;
+        let mut last = path.from as usize;
+        for k in 1..=n {
+            let next = if k == n { path.to as usize } else { fuses.len() };
+            if next == fuses.len() {
+                fuses.push(Vec::new());
+            }
+            fuses[last].push(next);
+            fuses[next].push(last);
+            last = next;
+        }
+    }
+    let mut burnt: Vec<Option<f64>> = vec![None; fuses.len()];
+    let leaf = |k: usize| k < axis.keypoints().len() && fuses[k].len() == 1;
+    let lit_at = |k: usize| axis.keypoints().at(k as u32).radius;
+    let mut left: Vec<usize> = fuses.iter().map(Vec::len).collect();
+    let mut now = 0.0;
+    // What burns next: nodes that were reached by all of their fuses but one.
+    let mut fronts: Vec<usize> = Vec::new();
+    let mut waiting: Vec<usize> = (0..axis.keypoints().len()).filter(|&k| leaf(k)).collect();
+    while !fronts.is_empty() || !waiting.is_empty() {
+        let (lit, rest): (Vec<usize>, Vec<usize>) =
+            waiting.iter().partition(|&&k| lit_at(k) <= now);
+        waiting = rest;
+        for k in lit {
+            if burnt[k].is_none() {
+                burnt[k] = Some(now);
+                fronts.push(k);
+            }
+        }
+        now += step;
+        let mut next = Vec::new();
+        for k in std::mem::take(&mut fronts) {
+            let Some(&to) = fuses[k].iter().find(|&&to| burnt[to].is_none()) else { continue };
+            left[to] -= 1;
+            // A fire that comes from behind finds nothing left to burn.
+            if left[to] <= 1 {
+                burnt[to] = Some(now);
+                next.push(to);
+            }
+        }
+        fronts = next;
+    }
+    burnt.truncate(axis.keypoints().len());
+    burnt
+}
+
+#[test]
+fn burn_times_are_those_of_a_simulation() {
+    let mut compared = 0;
+    for name in shapes::names() {
+        let domain = shapes::domain(&name);
+        let axis = path_tracing(&domain).unwrap();
+        let whole: f64 = axis.paths().iter().map(|path| axis.curve(&path).length()).sum();
+        if domain.edges().len() > 60 || axis.paths().is_empty() {
+            continue;
+        }
+        let step = whole / 20_000.0;
+        let times = simulated(&axis, step);
+        let values = Hierarchy::new(&domain, &axis).unwrap().significance(Measure::Erosion).paths;
+        // What was rounded away on each path on the way, and a step for each keypoint.
+        let slack = step * (axis.paths().len() + axis.keypoints().len()) as f64;
+        for (path, value) in axis.paths().iter().zip(values) {
+            for (keypoint, thickness) in [(path.from, value.start), (path.to, value.end)] {
+                let radius = axis.keypoints().at(keypoint).radius;
+                if let (Some(time), true) = (times[keypoint as usize], thickness.is_finite()) {
+                    // The value is that of this path, which may burn before its keypoint does.
+                    assert!(thickness <= time - radius + slack, "{name}: {thickness} {time}");
+                    compared += 1;
+                }
+            }
+            // The end at which the path lights the next one.
+            let ends = [(path.from, value.start), (path.to, value.end)];
+            let last = ends.iter().filter(|(_, v)| v.is_finite()).map(|(k, v)| {
+                times[*k as usize].map(|t| (t - axis.keypoints().at(*k).radius - v).abs())
+            });
+            if let Some(off) = last.flatten().reduce(f64::min) {
+                assert!(off <= slack, "{name}: {off} {slack}");
+            }
+        }
+    }
+    assert!(compared > 100, "{compared}");
+}

@@ -2,6 +2,8 @@ use super::features::Run;
 use super::sink::{Sink, draw, encode, title};
 use crate::args::{AxisArgs, Height, Region, Sides};
 use crate::failure::{Failure, Status};
+use crate::input::Documents;
+use crate::output::Output;
 use crate::report::Entry;
 use crate::timings::timed;
 use medial::axis::{Engine, MedialAxis, Side};
@@ -16,7 +18,7 @@ use std::path::Path;
 /// `medial prune`: `medial axis`, told what to remove.
 pub fn prune(args: &AxisArgs) -> Result<Status, Failure> {
     match args.pruning.threshold() {
-        Some(_) => run(args),
+        Some(_) => run_on(args, Documents::AsPolygons),
         None => Err(Failure::Usage(
             "say what to remove: --max-error V, or --prune MEASURE=VALUE; see --help".to_owned(),
         )),
@@ -25,6 +27,10 @@ pub fn prune(args: &AxisArgs) -> Result<Status, Failure> {
 
 /// `medial axis`.
 pub fn run(args: &AxisArgs) -> Result<Status, Failure> {
+    run_on(args, Documents::Refused)
+}
+
+fn run_on(args: &AxisArgs, documents: Documents) -> Result<Status, Failure> {
     args.region.check()?;
     let mut run = Run::new(&args.common)?;
     let format = output_format(args)?;
@@ -34,7 +40,7 @@ pub fn run(args: &AxisArgs) -> Result<Status, Failure> {
         keypoints: args.keypoints,
         side: args.region.side != Sides::Interior,
     };
-    let input = run.open(&args.input)?;
+    let input = run.open_with(&args.input, documents)?;
     let layer = timed(&mut run.stages.read, || input.layer())?;
     let picture = Options {
         title: title("Medial axis", &args.input),
@@ -44,7 +50,21 @@ pub fn run(args: &AxisArgs) -> Result<Status, Failure> {
     let crs = layer.crs.clone();
     let columns = csv::header(&args.measures, drawing);
     let mut sink = Sink::create(args.output.as_deref(), format, columns, crs)?;
+    let mut nodes = args.nodes.as_deref().map(|path| Output::create(Some(path))).transpose()?;
+    if let Some(nodes) = &mut nodes {
+        nodes.write(csv::node_header().as_bytes())?;
+    }
+    if let Some((measure, _)) = args.pruning.threshold()
+        && !measure.is_monotone()
+        && !args.common.quiet
+    {
+        crate::progress::line(&format!(
+            "warning: {measure} does not grow towards the root of a tree; parts below the value are kept \
+             where others above it need them"
+        ));
+    }
     let mut scenes = Vec::new();
+    let mut tables = Vec::new();
     let mut write = std::time::Duration::ZERO;
     let (at_once, threads) = run.threads(&layer);
     let options = engine::Options { threads, ..engine::Options::default() };
@@ -63,12 +83,28 @@ pub fn run(args: &AxisArgs) -> Result<Status, Failure> {
                     axes.iter().map(|axis| measured(args, domain, axis)).collect::<Result<_, _>>()
                 })?
             };
-            Ok(timed(&mut stages.write, || encode(format, drawing, feature, domain, axes, bytes)))
+            Ok(timed(&mut stages.write, || {
+                let table = |(axis, _): &(MedialAxis, _)| csv::node_rows(feature, axis);
+                let table: String = match args.nodes {
+                    Some(_) => axes.iter().map(table).collect(),
+                    None => String::new(),
+                };
+                (encode(format, drawing, feature, domain, axes, bytes), table)
+            }))
         },
-        |drawn| scenes.extend(drawn),
+        |(drawn, table)| {
+            scenes.extend(drawn);
+            tables.push(table);
+        },
         |bytes| timed(&mut write, || sink.write(bytes)),
     )?;
     if status != Status::NoResult {
+        if let Some(mut nodes) = nodes {
+            timed(&mut write, || {
+                tables.iter().try_for_each(|table| nodes.write(table.as_bytes()))?;
+                nodes.finish()
+            })?;
+        }
         timed(&mut write, || sink.finish(&draw(format, &scenes, &picture)?))?;
     }
     run.stages.write += write;
