@@ -149,3 +149,22 @@ fn simplified_corners_take_fewer_bytes_where_that_is_wanted() {
     let (plain, simplified) = (all(&[]), all(&["--simplify"]));
     assert!(simplified.1 <= plain.1, "{plain:?} {simplified:?}");
 }
+
+#[test]
+fn points_that_many_polygons_share_are_found_again() {
+    let strip = |k: u32| {
+        let at = |x: u32, y: u32| format!("{} {}", f64::from(x).sqrt(), f64::from(y).sqrt() / 3.0);
+        let corners = [at(k, 2), at(k + 1, 2), at(k + 1, 7), at(k, 7), at(k, 2)];
+        format!("(({}))", corners.join(", "))
+    };
+    let polygons: Vec<String> = (1..40).map(strip).collect();
+    let text = format!("MULTIPOLYGON ({})", polygons.join(", "));
+    let run = medial_with(&["compress", "-", "--max-error", "0"], &text);
+    assert_eq!((run.status, run.errors.as_str()), (Some(0), ""));
+    let record = maxis::records(&run.out).unwrap().next().unwrap().unwrap();
+    let Compressed::Corners(corners) = record.shape else { panic!("these are no corners") };
+    let given = medial_io::wkt::read(&text).next().unwrap().unwrap();
+    assert_eq!(corners.polygons, given.polygons);
+    // The numbers of a point take 16 bytes, and each is there in two polygons.
+    assert!(run.out.len() < 40 * 2 * 16 + 600, "{}", run.out.len());
+}

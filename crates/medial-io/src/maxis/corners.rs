@@ -3,49 +3,78 @@
 use super::cursor::Fault;
 use super::numbers::{EXPONENTS, MOST_PLACES, Scale, push, push_signed};
 use super::read::Body;
-use super::write::{Columns, engine};
-use super::{Anchor, BINARY, BITS, Column, DECIMAL, origin};
+use super::write::{Columns, EFFORT, engine};
+use super::{Anchor, BINARY, BITS, Column, DECIMAL, DOUBLES, origin};
 use medial::geom::Point;
 use medial::ops::Corners;
 
 pub(super) fn write(columns: &mut Columns, corners: &Corners, anchor: &mut Option<Anchor>) {
     let points = corners.polygons.iter().flatten().flatten();
-    let scale = Scale::of(points.clone().flat_map(|p| [p.x, p.y]));
-    let grid = match scale {
+    let scale = Scale::of(points.flat_map(|p| [p.x, p.y]));
+    let mut grid = match scale {
         Scale::Decimal(places) => (DECIMAL, places.into()),
         Scale::Binary(exponent) => (BINARY, exponent.into()),
         Scale::Bits => (BITS, 0),
     };
+    let [mut x, mut y] = steps(corners, scale, origin(*anchor, grid));
+    if scale == Scale::Bits {
+        // Where points are there twice, differences only hide it.
+        let plain = doubles(corners);
+        if deflated(&plain) < deflated(&[&x[..], &y].concat()) {
+            (grid, x, y) = ((DOUBLES, 0), plain, Vec::new());
+        }
+    }
+    let first = corners.polygons.iter().flatten().flatten().next();
+    if let Some(first) = first.filter(|_| grid.0 != DOUBLES) {
+        *anchor = Some(Anchor { grid, x: scale.number(first.x), y: scale.number(first.y) });
+    }
     let plan = columns.of(Column::Plan);
     plan.push(grid.0);
     plan.push(engine(corners.engine));
     push_signed(plan, grid.1.into());
     push(plan, single(corners.error).to_bits().into());
     push(plan, 2 * corners.polygons.len() as u64 + u64::from(corners.regroup));
-    let number = |p: &Point| (scale.number(p.x), scale.number(p.y));
-    let mut first = origin(*anchor, grid);
-    if let Some(point) = points.clone().next() {
-        let (x, y) = number(point);
-        *anchor = Some(Anchor { grid, x, y });
-    }
     for polygon in &corners.polygons {
-        push(columns.of(Column::Plan), polygon.len() as u64);
+        push(plan, polygon.len() as u64);
         for ring in polygon {
-            let is_closed = is_closed(ring);
-            let own = &ring[..ring.len() - usize::from(is_closed)];
-            push(columns.of(Column::Plan), 2 * own.len() as u64 + u64::from(is_closed));
-            let mut last = first;
-            for (k, point) in own.iter().enumerate() {
-                let (x, y) = number(point);
-                push_signed(columns.of(Column::X), x.wrapping_sub(last.0));
-                push_signed(columns.of(Column::Y), y.wrapping_sub(last.1));
-                last = (x, y);
-                if k == 0 {
-                    first = last;
-                }
+            push(plan, 2 * own(ring).len() as u64 + u64::from(is_closed(ring)));
+        }
+    }
+    columns.of(Column::X).extend(x);
+    columns.of(Column::Y).extend(y);
+}
+
+/// The points that are written, as differences.
+fn steps(corners: &Corners, scale: Scale, mut first: (i64, i64)) -> [Vec<u8>; 2] {
+    let [mut xs, mut ys] = [const { Vec::new() }; 2];
+    for ring in corners.polygons.iter().flatten() {
+        let mut last = first;
+        for (k, point) in own(ring).iter().enumerate() {
+            let (x, y) = (scale.number(point.x), scale.number(point.y));
+            push_signed(&mut xs, x.wrapping_sub(last.0));
+            push_signed(&mut ys, y.wrapping_sub(last.1));
+            last = (x, y);
+            if k == 0 {
+                first = last;
             }
         }
     }
+    [xs, ys]
+}
+
+/// The points that are written, as they are.
+fn doubles(corners: &Corners) -> Vec<u8> {
+    let points = corners.polygons.iter().flatten().flat_map(|ring| own(ring));
+    points.flat_map(|p| [p.x, p.y]).flat_map(f64::to_le_bytes).collect()
+}
+
+fn deflated(bytes: &[u8]) -> usize {
+    miniz_oxide::deflate::compress_to_vec(bytes, EFFORT).len()
+}
+
+/// The points of a ring without the one that closes it.
+fn own(ring: &[Point]) -> &[Point] {
+    &ring[..ring.len() - usize::from(is_closed(ring))]
 }
 
 /// The least number of single precision that is no less, or the largest there is.
@@ -76,8 +105,8 @@ pub(super) fn read(
         BINARY => Scale::Binary(
             i16::try_from(detail).ok().filter(|e| EXPONENTS.contains(e)).ok_or_else(off)?,
         ),
-        BITS if detail == 0 => Scale::Bits,
-        BITS => return Err(off()),
+        BITS | DOUBLES if detail == 0 => Scale::Bits,
+        BITS | DOUBLES => return Err(off()),
         _ => return Err(format!("{kind} is no kind of feature")),
     };
     // In range: checked above.
@@ -99,6 +128,10 @@ pub(super) fn read(
             let mut ring = Vec::with_capacity(n + 1);
             let mut last = first;
             for k in 0..n {
+                if kind == DOUBLES {
+                    ring.push(Point::new(body.double(Column::X)?, body.double(Column::X)?));
+                    continue;
+                }
                 last.0 = last.0.wrapping_add(body.signed(Column::X)?);
                 last.1 = last.1.wrapping_add(body.signed(Column::Y)?);
                 ring.push(Point::new(scale.value(last.0), scale.value(last.1)));

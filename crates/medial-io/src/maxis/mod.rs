@@ -50,11 +50,12 @@ const HEAD: usize = 13;
 const PLAIN: u8 = 0;
 const DEFLATED: u8 = 1;
 
-/// Kinds of features: disks, or corners on one of three scales.
+/// Kinds of features: disks, or corners on one of three scales, or as the doubles they are.
 const DISKS: u8 = 0;
 const DECIMAL: u8 = 1;
 const BINARY: u8 = 2;
 const BITS: u8 = 3;
+const DOUBLES: u8 = 4;
 
 /// A column of the body.
 #[derive(Clone, Copy)]

@@ -175,6 +175,11 @@ impl Body {
         self.cursors[column as usize].signed(&self.bytes)
     }
 
+    pub fn double(&mut self, column: Column) -> Result<f64, Fault> {
+        let bytes = self.cursors[column as usize].bytes(&self.bytes, 8)?;
+        Ok(bytes.first_chunk().copied().map_or(0.0, f64::from_le_bytes))
+    }
+
     /// A number of things that take a byte of a column each, or more.
     pub fn fits(&self, column: Column, count: u64) -> Result<usize, Fault> {
         let left = self.cursors[column as usize].left();

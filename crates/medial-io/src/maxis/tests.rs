@@ -32,6 +32,9 @@ const L: &str = "POLYGON ((0 0, 3 0, 3 1, 1 1, 1 3, 0 3, 0 0))";
 const RING: &str = "MULTIPOLYGON (((0 0, 9 0, 9 9, 0 9, 0 0), (3 3, 3 6, 6 6, 6 3, 3 3)), \
                     ((20 0.5, 21 0.1, 21 3)))";
 
+const TWICE: &str = "((0.12345678901234567 0.98765432109876543, 1.1234567890123457e-3 -0.55555555555555558, \
+                     7.7777777777777777 0.33333333333333331, 0.12345678901234567 0.98765432109876543))";
+
 fn records() -> Vec<Record> {
     let shapes = [
         corners(L),
@@ -39,6 +42,8 @@ fn records() -> Vec<Record> {
         corners("POLYGON ((0.1 0.2, 3.33 0, 1 1))"),
         corners("POLYGON ((0.3333333333333333 1e-7, 3.75 -0, 1 1e100))"),
         simplified(RING, 0.25),
+        // Each point of a strip is there twice, as it is in its neighbour.
+        corners(&format!("MULTIPOLYGON ({TWICE}, {TWICE}, {TWICE})")),
         corners("POLYGON EMPTY"),
         corners("MULTIPOLYGON EMPTY"),
         disks(L, 0.1),

@@ -3,7 +3,7 @@
 //! # Contract
 //! The boundary that is left and the one that was given are within the error of one another, in both
 //! directions. There are as many polygons and rings as before, and they bound a domain that needs no
-//! repairs; if that cannot be had there is no result.
+//! repairs; if that cannot be had with the error or a part of it there is no result.
 //! O(n log n) for n corners as a rule, O(n²) at worst.
 //!
 //! # Method
@@ -24,6 +24,9 @@ use crate::geom::Point;
 /// Size only. A finer grid takes more bits for each corner, a coarser one leaves more corners.
 const GRID_SHARE: f64 = 0.2;
 
+/// How often half of the error is tried, where rings collapse, touch or cross with all of it.
+const MOST_HALVINGS: i32 = 5;
+
 /// Steps of the grid that a coordinate may have at most.
 const MOST_STEPS: f64 = (1_u64 << 40) as f64;
 
@@ -31,8 +34,8 @@ impl Corners {
     /// The corners that are left of these polygons if their boundary may move by `max_error`, in units of
     /// the input, or the next smaller number of single precision.
     ///
-    /// Returns `None` if the error is too small for a grid, or if what is left bounds no domain as it is,
-    /// or has fewer rings.
+    /// Where what is left would bound no domain as it is, or have fewer rings, less of the error is used.
+    /// Returns `None` if that does not help, or if the error is too small for a grid.
     ///
     /// ```
     /// use medial::axis::Engine;
@@ -48,7 +51,13 @@ impl Corners {
     /// ```
     #[must_use]
     pub fn simplified(&self, max_error: f64) -> Option<Self> {
-        let max_error = single(max_error);
+        (0..MOST_HALVINGS)
+            .map(|k| max_error * 0.5_f64.powi(k))
+            .find_map(|error| self.simplified_by(single(error)))
+    }
+
+    /// The same for just this error.
+    fn simplified_by(&self, max_error: f64) -> Option<Self> {
         let points = self.polygons.iter().flatten().flatten();
         let size = points.map(|p| p.x.abs().max(p.y.abs())).fold(0.0, f64::max);
         let step =
@@ -150,12 +159,13 @@ mod tests {
         };
         let square: &[(f64, f64)] = &[(0.0, 0.0), (9.0, 0.0), (9.0, 9.0), (0.0, 9.0)];
         assert!(corners(&[square]).simplified(1.0).is_some());
-        assert!(corners(&[square]).simplified(20.0).is_none());
+        assert!(corners(&[square]).simplified_by(20.0).is_none());
+        assert_eq!(corners(&[square]).simplified(20.0).map(|left| left.error), Some(5.0));
         // A hole under a bulge of the boundary.
         let bulge: &[(f64, f64)] = &[(0.0, 0.0), (9.0, 0.0), (9.0, 9.0), (4.5, 10.0), (0.0, 9.0)];
         let hole: &[(f64, f64)] = &[(4.0, 8.0), (4.0, 9.5), (5.0, 9.5), (5.0, 8.0)];
         assert!(corners(&[bulge, hole]).simplified(0.1).is_some());
-        assert!(corners(&[bulge, hole]).simplified(1.4).is_none());
+        assert!(corners(&[bulge, hole]).simplified_by(1.4).is_none());
         for error in [0.0, -1.0, f64::NAN, f64::INFINITY, 1e-14] {
             assert!(corners(&[square]).simplified(error).is_none(), "{error}");
         }
