@@ -312,7 +312,7 @@ from it, and stays inside; of both the tolerances add up. Widths are those at it
 Examples:
   medial centerline fixtures/river.geojson -o river.line.geojson
   medial centerline fixtures/river.geojson --count 3 --extend boundary --tolerance 0.1
-  medial centerline fixtures/river.geojson --smooth 20 --simplify 1 -o river.svg
+  medial centerline fixtures/river.geojson --smooth 0.2 --simplify 0.01 -o river.svg
   medial centerline fixtures/shapes/plus_of_unit_squares.wkt --max-error 0.2 --z radius --to wkt
   medial centerline fixtures/shapes/l_with_unit_arms.wkt --for label --height 0.5 --to csv
   medial centerline fixtures/shapes/l_with_unit_arms.wkt --between 0.5,3,3,0.5 --extend anchors

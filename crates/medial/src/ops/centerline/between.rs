@@ -115,17 +115,16 @@ fn longest(
     nodes: &[u32],
     points: &[Point],
 ) -> Result<(Way, [usize; 2]), CenterlineError> {
-    let holder = |node: u32| components.iter().find(|component| component.contains(&node));
-    let n = holder(nodes[0]).map_or(0, Vec::len);
-    let apart = |k: usize| CenterlineError::Apart { points: [points[0], points[k]] };
+    let holder = |&node: &u32| components.iter().position(|component| component.contains(&node));
+    let holders: Vec<Option<usize>> = nodes.iter().map(holder).collect();
+    if let Some(k) = holders.iter().position(|&holder| holder != holders[0]) {
+        return Err(CenterlineError::Apart { points: [points[0], points[k]] });
+    }
+    let n = holders[0].map_or(0, |holder| components[holder].len());
     let mut best = (Way::default(), [0, 0]);
     for (from, &start) in nodes.iter().enumerate() {
         let ways = graph.ways_from(start, n);
         for (to, &end) in nodes.iter().enumerate().skip(from + 1) {
-            let is_joined = holder(end).is_some_and(|component| component.contains(&start));
-            if !is_joined {
-                return Err(apart(if from == 0 { to } else { from }));
-            }
             if graph.distance(&ways, end) > best.0.value {
                 best = (graph.way(&ways, end), [from, to]);
             }

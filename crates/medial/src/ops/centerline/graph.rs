@@ -24,19 +24,19 @@ pub(super) struct Graph<'a> {
 
 /// A part of a path, between two nodes.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Piece {
-    pub path: u32,
+struct Piece {
+    path: u32,
     /// The parameters of its ends, in ascending order.
-    pub span: [f64; 2],
-    pub from: u32,
-    pub to: u32,
+    span: [f64; 2],
+    from: u32,
+    to: u32,
 }
 
 /// Pieces that are gathered for a graph. Keypoints are nodes under their own numbers; more nodes lie where
 /// paths are cut.
 pub(super) struct Pieces<'a> {
-    pub axis: &'a MedialAxis,
-    pub pieces: Vec<Piece>,
+    axis: &'a MedialAxis,
+    pieces: Vec<Piece>,
     n_nodes: u32,
 }
 
@@ -126,6 +126,16 @@ impl<'a> Graph<'a> {
     /// How many pieces end at a node, of those that are left.
     pub fn degree(&self, node: u32) -> usize {
         self.pieces_at(node).count()
+    }
+
+    /// Whether a node is no more than a joint of two pieces.
+    pub fn is_joint(&self, node: u32) -> bool {
+        self.pieces_at(node).take(3).count() == 2
+    }
+
+    /// Whether ways part at a node.
+    pub fn is_branching(&self, node: u32) -> bool {
+        self.pieces_at(node).take(3).count() == 3
     }
 
     pub fn length(&self, piece: u32) -> f64 {

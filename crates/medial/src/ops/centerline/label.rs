@@ -110,7 +110,7 @@ pub(super) fn way(graph: &Graph, component: &[u32], height: f64) -> Option<Way> 
     let mut legs = Vec::new();
     for chain in chains(graph, component) {
         let ends = [chain.nodes[0], chain.nodes[chain.nodes.len() - 1]];
-        let is_between = ends.iter().all(|&node| graph.degree(node) > 2);
+        let is_between = ends.iter().all(|&node| graph.is_branching(node));
         let length: f64 = chain.lengths.iter().sum();
         if is_between && length < APART * height {
             let [a, b] = ends.map(|node| graph.place(node) as u32);
@@ -136,8 +136,7 @@ struct Chain {
 
 fn chains(graph: &Graph, component: &[u32]) -> Vec<Chain> {
     let mut chains = Vec::new();
-    let is_joint = |node: u32| graph.degree(node) == 2;
-    for &start in component.iter().filter(|&&node| !is_joint(node)) {
+    for &start in component.iter().filter(|&&node| !graph.is_joint(node)) {
         for piece in graph.pieces_at(start) {
             let mut chain = Chain { nodes: vec![start], lengths: Vec::new() };
             let (mut piece, mut node) = (piece, start);
@@ -147,7 +146,7 @@ fn chains(graph: &Graph, component: &[u32]) -> Vec<Chain> {
                 chain.lengths.push(graph.length(piece));
                 let last = piece;
                 match graph.pieces_at(node).find(|&next| next != last) {
-                    Some(next) if is_joint(node) => piece = next,
+                    Some(next) if graph.is_joint(node) => piece = next,
                     _ => break,
                 }
             }
