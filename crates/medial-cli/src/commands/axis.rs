@@ -76,7 +76,7 @@ fn run_on(args: &AxisArgs, documents: Documents) -> Result<Status, Failure> {
             // All that is asked of a feature, or nothing.
             let axes =
                 timed(&mut stages.engine, || trace(args.engine, &args.region, domain, &options))?;
-            let axes = if args.pruning.threshold().is_none() && args.measures.is_empty() {
+            let axes: Vec<_> = if args.pruning.threshold().is_none() && args.measures.is_empty() {
                 axes.into_iter().map(|axis| (axis, Vec::new())).collect()
             } else {
                 timed(&mut stages.operations, || {
