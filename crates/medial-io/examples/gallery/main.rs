@@ -7,6 +7,7 @@
 mod both_sides;
 mod bounds;
 mod branches;
+mod compress;
 mod lake;
 mod lee;
 mod lee_1_2;
@@ -59,7 +60,7 @@ const LESSONS: [Lesson; 12] = [
 ];
 
 /// Pictures besides, each in a file of its name.
-const PICTURES: [(&str, Lesson); 13] = [
+const PICTURES: [(&str, Lesson); 14] = [
     ("lee-1-2", lee_1_2::LESSON),
     ("voronoi", voronoi::LESSON),
     ("both-sides", both_sides::LESSON),
@@ -73,6 +74,7 @@ const PICTURES: [(&str, Lesson); 13] = [
     ("pruned", pruned::LESSON),
     ("branches", branches::LESSON),
     ("smooth", smooth::LESSON),
+    ("compress", compress::LESSON),
 ];
 
 const HEAD: &str = "\
