@@ -83,12 +83,12 @@ def medial():
     return cargo(ROOT, "-p", "medial-cli") / "medial"
 
 
-def python():
-    """A Python with the peers that pip has."""
+def python(packages=PEERS):
+    """A Python with some packages of pip."""
     folder = target(BENCH).parent / "venv"
     program = folder / "bin" / "python"
     if not program.exists():
         need(importlib.util.find_spec("ensurepip"), "python3-venv")
         subprocess.run([sys.executable, "-m", "venv", folder], check=True)
-    subprocess.run([program, "-m", "pip", "install", "--quiet", *PEERS], check=True)
+    subprocess.run([program, "-m", "pip", "install", "--quiet", *packages], check=True)
     return program

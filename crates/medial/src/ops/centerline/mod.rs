@@ -167,8 +167,9 @@ pub enum CenterlineError {
 /// let (route, extension) = (Route::Between(banks), Extension::Anchors);
 /// let options = CenterlineOptions { route, extension, ..CenterlineOptions::default() };
 /// let lines = centerlines(&domain, &axis, &options)?;
-/// let points: Vec<(f64, f64)> = lines[0].polyline(0.01).iter().map(|(p, _)| (p.x, p.y)).collect();
-/// assert_eq!(points, [(2.0, 0.0), (2.0, 1.0), (4.0, 1.0), (4.0, 2.0)]);
+/// let points = lines[0].polyline(0.01);
+/// assert_eq!((points[0].0, points[3].0), (Point::new(2.0, 0.0), Point::new(4.0, 2.0)));
+/// assert!((lines[0].length() - 4.0).abs() < 1e-12);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
