@@ -127,7 +127,13 @@ impl Opened {
             Self::Axes(Input { name, bytes }) if documents == Documents::AsPolygons => {
                 Ok(Polygons { name, format: Format::Json, content: Features::Axes(bytes) })
             }
-            Self::Axes(input) => Err(input.wrong("holds axes; polygons are needed here")),
+            Self::Axes(input) => {
+                let what = match Format::of_content(&input.bytes) {
+                    Ok(Content::CompressedAxes) => "a compressed axis",
+                    _ => "an axis document",
+                };
+                Err(input.wrong(format_args!("is {what}; polygons are needed here")))
+            }
         }
     }
 }

@@ -7,6 +7,7 @@ use crate::progress::Progress;
 use crate::report::Entry;
 use crate::timings::timed;
 use medial::axis::{Accuracy, MedialAxis, Side};
+use medial::domain::Walk;
 use medial::engine::interior;
 use medial::geom::Point;
 use medial::ops::{
@@ -17,8 +18,6 @@ use medial_io::record::{self, Record, Shape, Value};
 use medial_io::{Feature, default_tolerance};
 
 const COLUMNS: &[&str] = &["method", "error", "area"];
-
-type Polygons = Vec<Vec<Vec<Point>>>;
 
 /// `medial reconstruct`.
 pub fn run(args: &ReconstructArgs) -> Result<Status, Failure> {
@@ -38,7 +37,8 @@ pub fn run(args: &ReconstructArgs) -> Result<Status, Failure> {
         let mut axis = timed(&mut stages.engine, || interior(domain, args.engine, options))
             .map_err(|error| Entry::unfinished(&error))?;
         timed(&mut stages.operations, || {
-            let original = polygons_of(&axis).map_err(|error| Entry::internal(&error))?;
+            let corners = |walk: &Walk| walk.edges().map(|k| domain.edge(k).start).collect();
+            let original: Vec<Vec<Point>> = domain.walks().iter().map(corners).collect();
             if let Some((measure, value)) = args.pruning.threshold() {
                 axis = Hierarchy::new(domain, &axis)
                     .map_err(|error| Entry::internal(&error))?
@@ -62,7 +62,7 @@ fn of_documents(args: &ReconstructArgs, plan: &Plan<'_>, input: &Input) -> Resul
     let (mut done, mut left_out) = (0, 0);
     for document in input.axes()? {
         let document = document.map_err(|error| input.wrong(error))?;
-        let original = polygons_of(&document.axis).ok();
+        let original = polygons_of(&document.axis).ok().map(|polygons| polygons.concat());
         match rebuilt(args, &document.axis, original.as_ref()) {
             Ok(record) => {
                 let source =
@@ -88,11 +88,11 @@ fn of_documents(args: &ReconstructArgs, plan: &Plan<'_>, input: &Input) -> Resul
     Ok(if left_out > 0 { Status::LeftOut } else { Status::Done })
 }
 
-/// The polygons of an axis, with their distance from those it was made of, if they are known.
+/// The polygons of an axis, with their distance from the rings it was made of, if they are known.
 fn rebuilt(
     args: &ReconstructArgs,
     axis: &MedialAxis,
-    original: Option<&Polygons>,
+    original: Option<&Vec<Vec<Point>>>,
 ) -> Result<Record, Entry> {
     if axis.side != Side::Interior {
         let why = "the axis is that of the exterior; give that of the interior";
@@ -115,7 +115,7 @@ fn rebuilt(
         (Method::Disks, _) => union_of_disks(&disks(axis, step), tolerance),
     };
     let error = original.map_or(f64::INFINITY, |original| {
-        boundary_distance(&original.concat(), &polygons.concat(), 1e-2 * tolerance)
+        boundary_distance(original, &polygons.concat(), 1e-2 * tolerance)
     });
     let area = polygons.iter().flatten().map(|ring| signed_area(ring)).sum::<f64>();
     let values = vec![Value::from(method.name()), error.into(), area.into()];

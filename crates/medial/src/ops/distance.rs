@@ -101,10 +101,12 @@ impl Segments {
     /// The distance of a point from one segment.
     fn distance(&self, p: Point, segment: u32) -> f64 {
         let (a, b) = self.ends[segment as usize];
+        if p == a || p == b {
+            return 0.0;
+        }
         let along = b - a;
         let length2 = along.norm2();
         let share = if length2 > 0.0 { along.dot(p - a) / length2 } else { 0.0 };
-        // Ends are met exactly.
         if share <= 0.0 {
             (p - a).norm()
         } else if share >= 1.0 {

@@ -65,22 +65,10 @@ impl Centerline {
         let greatest = self.curves.iter().map(Curve::radius_max).fold(0.0, f64::max);
         let (mut sum, mut length) = (0.0, 0.0);
         for curve in &self.curves {
-            sum += area(curve);
+            sum += curve.length() * curve.radius_mean();
             length += curve.length();
         }
         let mean = if length > 0.0 { (sum / length).clamp(least, greatest) } else { greatest };
         Widths { least: 2.0 * least, greatest: 2.0 * greatest, mean: 2.0 * mean }
     }
-}
-
-/// The radius, summed up along a curve by Simpson's rule in pieces that are nearly straight.
-fn area(curve: &Curve) -> f64 {
-    const PIECES: u32 = 64;
-    let at = |k: u32| f64::from(k) / f64::from(PIECES);
-    let piece = |k: u32| {
-        let piece = curve.piece(at(k), at(k + 1));
-        let middle = piece.radius_at(0.5);
-        piece.length() * (piece.radius_from() + 4.0 * middle + piece.radius_to()) / 6.0
-    };
-    (0..PIECES).map(piece).sum()
 }
