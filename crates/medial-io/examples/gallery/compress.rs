@@ -10,15 +10,15 @@ use std::fs;
 
 pub const LESSON: Lesson = Lesson {
     title: "Compression, and a line for a label",
-    text: "The river once more. On the left the disks that `medial compress river.geojson --max-error 15` \
-           keeps, joined by straight lines with linear radius: their union is nowhere farther than 15 m \
-           from the river. On the right the line that `medial centerline river.geojson --for label` gives: \
+    text: "The river once more. On the left the disks that `medial compress river.geojson --max-error 0.3` \
+           keeps, joined by straight lines with linear radius: their union is nowhere farther than 0.3 m \
+           from the boundary. On the right the line that `medial centerline river.geojson --for label` gives: \
            long, wide enough for letters half as high as the river is wide, and with few turns.",
     draw,
 };
 
 /// How far the boundary may move, in metres.
-const ERROR: f64 = 15.0;
+const ERROR: f64 = 0.3;
 
 fn draw() -> Fallible<String> {
     let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../../fixtures/river.geojson");
@@ -28,7 +28,7 @@ fn draw() -> Fallible<String> {
     let Shape { domain, axis, .. } = &shape;
     let window = shape.window(0.3);
     let mut sheet = Sheet::new(2, (300.0, 360.0));
-    let mut panel = sheet.panel(window, "within 15 m");
+    let mut panel = sheet.panel(window, "within 0.3 m");
     panel.domain(domain);
     let graph = compress(domain, axis, ERROR)?;
     for number in 0..graph.disks().len() as u32 {
