@@ -82,7 +82,9 @@ fn operation(name: &str) -> Result<(), Error> {
             let axis = medial_bench_engine(Engine::PathTracing, &domain)?;
             Ok((domain, axis))
         },
-        second: |(domain, axis): &mut (Domain, MedialAxis)| medial_bench_operation(name, domain, axis),
+        second: |(domain, axis): &mut (Domain, MedialAxis)| {
+            medial_bench_operation(name, domain, axis)
+        },
         count: |_: &(Domain, MedialAxis), count: &usize| *count,
     };
     report(&text::read()?, text::edges, &work)
