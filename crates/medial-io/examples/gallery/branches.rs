@@ -3,11 +3,8 @@ use crate::shape::{Fallible, Shape};
 use crate::sheet::{Sample, Sheet};
 use crate::style::{FINE, MUTED};
 use medial::axis::{Curve, Engine, Side};
-use medial::domain::{Domain, Options};
 use medial::engine::both_sides;
 use medial::ops::{Hierarchy, Measure, Primitive, Trend, branches, limbs};
-use medial_io::{Format, read};
-use std::fs;
 
 pub const LESSON: Lesson = Lesson {
     title: "Branches, peninsulas and bays",
@@ -26,10 +23,7 @@ const PENINSULA: &str = "fill=\"none\" stroke=\"#8e24aa\" stroke-width=\"1.8\"";
 const BAY: &str = "fill=\"none\" stroke=\"#ef6c00\" stroke-width=\"1.8\"";
 
 fn draw() -> Fallible<String> {
-    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../../fixtures/river.geojson");
-    let bytes = fs::read(file)?;
-    let feature = read(Format::GeoJson, &bytes)?.next().ok_or("no feature in the fixture")??;
-    let shape = Shape::of(Domain::from_polygons(&feature.polygons, &Options::default())?)?;
+    let shape = Shape::river()?;
     let Shape { domain, axis, .. } = &shape;
     let pruned = Hierarchy::new(domain, axis)?.pruned(Measure::RelativeExcess, 0.5).axis;
     let window = shape.window(0.3);

@@ -3,10 +3,7 @@ use crate::shape::{Fallible, Shape};
 use crate::sheet::Sheet;
 use crate::style::{AXIS, DISK, FAINT, TEAL};
 use medial::axis::Curve;
-use medial::domain::{Domain, Options};
 use medial::ops::{CenterlineOptions, Route, centerlines, compress};
-use medial_io::{Format, read};
-use std::fs;
 
 pub const LESSON: Lesson = Lesson {
     title: "Compression, and a line for a label",
@@ -21,10 +18,7 @@ pub const LESSON: Lesson = Lesson {
 const ERROR: f64 = 0.3;
 
 fn draw() -> Fallible<String> {
-    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../../fixtures/river.geojson");
-    let bytes = fs::read(file)?;
-    let feature = read(Format::GeoJson, &bytes)?.next().ok_or("no feature in the fixture")??;
-    let shape = Shape::of(Domain::from_polygons(&feature.polygons, &Options::default())?)?;
+    let shape = Shape::river()?;
     let Shape { domain, axis, .. } = &shape;
     let window = shape.window(0.3);
     let mut sheet = Sheet::new(2, (300.0, 360.0));

@@ -3,10 +3,7 @@ use crate::shape::{Fallible, Shape};
 use crate::sheet::Sheet;
 use crate::style::{AXIS, FAINT, FINE};
 use medial::axis::{Curve, MedialAxis};
-use medial::domain::{Domain, Options};
 use medial::ops::{CenterlineOptions, Extension, Hierarchy, Measure, centerlines};
-use medial_io::{Format, read};
-use std::fs;
 
 pub const LESSON: Lesson = Lesson {
     title: "Pruning, and the main line",
@@ -23,10 +20,7 @@ pub const LESSON: Lesson = Lesson {
 const LEAST: f64 = 0.5;
 
 fn draw() -> Fallible<String> {
-    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../../fixtures/river.geojson");
-    let bytes = fs::read(file)?;
-    let feature = read(Format::GeoJson, &bytes)?.next().ok_or("no feature in the fixture")??;
-    let shape = Shape::of(Domain::from_polygons(&feature.polygons, &Options::default())?)?;
+    let shape = Shape::river()?;
     let Shape { domain, axis, .. } = &shape;
     let pruned = Hierarchy::new(domain, axis)?.pruned(Measure::RelativeExcess, LEAST).axis;
     let extension = Extension::Boundary;

@@ -7,7 +7,9 @@ use medial::domain::{Corner, Domain, Options, Site};
 use medial::engine::{Step, path_tracing, path_tracing_steps};
 use medial::geom::Point;
 use medial::geom::predicates::ExactDisk;
+use medial_io::{Format, read};
 use std::error::Error;
+use std::fs;
 
 /// The result of something that may go wrong.
 pub type Fallible<T> = Result<T, Box<dyn Error>>;
@@ -36,6 +38,15 @@ impl Shape {
     pub fn new(ring: &[(f64, f64)]) -> Fallible<Self> {
         let ring: Vec<Point> = ring.iter().map(|&(x, y)| Point::new(x, y)).collect();
         Self::of(Domain::from_polygons(&[vec![ring]], &Options::default())?)
+    }
+
+    /// The stretch of river among the fixtures.
+    pub fn river() -> Fallible<Self> {
+        let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../../fixtures/river.geojson");
+        let bytes = fs::read(file)?;
+        let feature =
+            read(Format::GeoJson, &bytes)?.next().ok_or("no feature in the fixture")??;
+        Self::of(Domain::from_polygons(&feature.polygons, &Options::default())?)
     }
 
     /// The shape of a domain; refused if the judge finds a defect of its axis.

@@ -3,11 +3,8 @@ use crate::shape::{Fallible, Shape};
 use crate::sheet::{Panel, Sheet};
 use crate::style::{AXIS, FINE};
 use medial::axis::{Curve, MedialAxis};
-use medial::domain::{Domain, Options};
 use medial::geom::Point;
 use medial::ops::{Hierarchy, Measure, smoothed, tangent_polygons};
-use medial_io::{Format, read};
-use std::fs;
 
 pub const LESSON: Lesson = Lesson {
     title: "Smoothing and rebuilding",
@@ -26,10 +23,7 @@ const FINE_ARCS: f64 = 1e-3;
 const NEW: &str = "fill=\"none\" stroke=\"#d84315\" stroke-width=\"1.6\"";
 
 fn draw() -> Fallible<String> {
-    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../../fixtures/river.geojson");
-    let bytes = fs::read(file)?;
-    let feature = read(Format::GeoJson, &bytes)?.next().ok_or("no feature in the fixture")??;
-    let shape = Shape::of(Domain::from_polygons(&feature.polygons, &Options::default())?)?;
+    let shape = Shape::river()?;
     let Shape { domain, axis, .. } = &shape;
     let window = shape.window(0.3);
     let mut sheet = Sheet::new(3, (300.0, 360.0));

@@ -1,5 +1,5 @@
 //! Peninsulas and bays, and which of them go together: the purpose for which Volkmann and St. Clair looked
-//! for the axis (I.B), to nest shapes into what is left of a sheet.
+//! for the axis [VS87, I.B], to nest shapes into what is left of a sheet.
 //!
 //! # Contract
 //! A limb is a branch with a free end, of the axis that is left once small branches are pruned: a peninsula

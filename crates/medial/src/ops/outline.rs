@@ -11,7 +11,7 @@
 //! says which, no angle is computed.
 //!
 //! # Departures
-//! Volkmann and St. Clair (II.C) approximate the outline by tangents of disks; see `tangents.rs`.
+//! Volkmann and St. Clair [VS87, II.C] approximate the outline by tangents of disks; see `reconstruct.rs`.
 
 use super::groups::Groups;
 use crate::axis::{KeypointKind, MedialAxis, Path, Side, Site, SiteKind};

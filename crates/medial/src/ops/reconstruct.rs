@@ -5,7 +5,7 @@
 //! something, so all are there, with their places in the input. Vertices that a domain merges away, because
 //! they repeat another or lie straight between their neighbours, stay away.
 //! [`tangent_polygons`] takes any axis of the interior, and points along it: the algorithm of Volkmann and
-//! St. Clair (II.C). [`disks`] gives the disks at such points, whose union the shape is.
+//! St. Clair [VS87, II.C]. [`disks`] gives the disks at such points, whose union the shape is.
 //!
 //! # Method
 //! II.C puts a point on each side of every disk, where its tangent is parallel to the tangent that its two
