@@ -91,7 +91,7 @@ pub fn header(columns: &[&str]) -> String {
 }
 
 /// Appends records of one feature in a format; GeoJSON features each behind a
-/// [`SEPARATOR`](crate::geojson::SEPARATOR).
+/// [`SEPARATOR`].
 pub fn write(
     out: &mut Vec<u8>,
     format: Format,
