@@ -158,7 +158,7 @@ Examples:
   medial branches fixtures/river.geojson --max-error 2 -o branches.geojson
   medial branches fixtures/shapes/plus_of_unit_squares.wkt --by primitive --to csv
   medial branches fixtures/shapes/plus_of_unit_squares.wkt --limbs --side both --to csv
-  medial branches fixtures/shapes/plus_of_unit_squares.wkt --match fixtures/shapes/l_with_unit_arms.wkt
+  medial branches fixtures/river.geojson --match fixtures/river.geojson --prune relative_excess=0.4
 
 Exit status: 0 all done; 1 no usable result; 2 wrong usage; 3 some features were left out.";
 
@@ -238,7 +238,8 @@ pub struct SmoothArgs {
 const RECONSTRUCT_HELP: &str = "\
 From an axis document, or from polygons by way of their axis. Methods:
   exact      the corners of a complete axis, bit for bit; where something was pruned, arcs of the last disks
-  tangents   the polygonal algorithm of Volkmann and St. Clair, from points along the axis
+  tangents   the polygonal algorithm of Volkmann and St. Clair, from points along the axis; where its rings
+             cross themselves, what they wind around
   disks      the union of the disks at those points
 `error` is the distance between the new boundary and the old one, where that is known.
 
@@ -266,7 +267,7 @@ pub struct ReconstructArgs {
     /// How polygons are made of an axis
     #[arg(long, value_name = "NAME", default_value = "exact")]
     pub method: Method,
-    /// Distance of points along the axis (tangents, disks), in units of the input; by default 1e-3 of
+    /// Distance of points along the axis (tangents, disks), in units of the input; by default 1e-2 of
     /// the longer side of the feature's box
     #[arg(long, value_name = "D", value_parser = positive, allow_negative_numbers = true)]
     pub step: Option<f64>,
@@ -751,7 +752,7 @@ fn positive(word: &str) -> Result<f64, String> {
 
 fn not_negative(word: &str) -> Result<f64, String> {
     match word.parse::<f64>() {
-        Ok(value) if value >= 0.0 => Ok(value),
+        Ok(value) if value >= 0.0 && value.is_finite() => Ok(value),
         _ => Err("a number that is not negative is needed".to_owned()),
     }
 }

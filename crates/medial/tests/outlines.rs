@@ -298,3 +298,55 @@ fn the_union_of_disks_fills_the_shape() {
         boundary_distance(&polygons_of(&axis).unwrap().concat(), &polygons.concat(), 1e-6);
     assert!(distance < 0.01, "{distance}");
 }
+
+#[test]
+fn corners_that_are_nearly_straight_make_no_circles() {
+    // The second corner is straight but for its rounding; so are those of the coast below.
+    let blunt = "POLYGON ((0 0, 2.94 0.9799999999999999, 4.2 1.4, 1.9 3.8, 0 0))";
+    let mut coast = Vec::new();
+    let corners = [(0.1, 0.2), (9.3, 1.1), (8.2, 7.7), (4.4, 3.3), (1.3, 8.9)];
+    for (k, &(x, y)) in corners.iter().enumerate() {
+        let (u, v) = corners[(k + 1) % corners.len()];
+        coast.extend(
+            (0..7)
+                .map(|k| f64::from(k) / 7.0)
+                .map(|t| Point::new(x + t * (u - x), y + t * (v - y))),
+        );
+    }
+    for domain in [shapes::wkt(blunt), shapes::of(&[vec![coast]]).unwrap()] {
+        let axis = path_tracing(&domain).unwrap();
+        for (measure, value) in
+            [(Measure::Prominence, 0.1), (Measure::Excess, 1e-9), (Measure::Excess, 0.1)]
+        {
+            let smooth = smoothed(&domain, &axis, measure, value).unwrap();
+            let walks: Vec<Vec<Point>> = domain
+                .walks()
+                .iter()
+                .map(|walk| walk.edges().map(|k| domain.edge(k).start).collect())
+                .collect();
+            let rings = smooth.outline.polygons(1e-4).concat();
+            let distance = boundary_distance(&walks, &rings, 1e-6);
+            assert!(distance <= smooth.distance + 2e-4, "{measure} {value}: {distance}");
+            assert!(smooth.outline.area() <= domain.area() + 1e-9);
+            assert!(shapes::of(&smooth.outline.polygons(1e-4)).is_ok());
+        }
+    }
+}
+
+#[test]
+fn rings_that_touch_stay_rings() {
+    for name in
+        ["hole_touching_an_edge", "two_touching_holes", "hole_touching_the_outer_ring_at_a_corner"]
+    {
+        let domain = shapes::domain(name);
+        let axis = path_tracing(&domain).unwrap();
+        let polygons = Outline::new(&axis).unwrap().polygons(1e-4);
+        let n_rings = shapes::polygons(name)[0].len();
+        assert_eq!((polygons.len(), polygons[0].len()), (1, n_rings), "{name}: {polygons:?}");
+        assert!(signed_area(&polygons[0][0]) > 0.0);
+        assert!(polygons[0][1..].iter().all(|hole| signed_area(hole) < 0.0));
+        // As simple features want it.
+        let strict = domain::Options { strict: true, ..domain::Options::default() };
+        assert!(Domain::from_polygons(&polygons, &strict).is_ok(), "{name}");
+    }
+}

@@ -32,6 +32,15 @@ pub fn run(args: &AxisArgs) -> Result<Status, Failure> {
 
 fn run_on(args: &AxisArgs, documents: Documents) -> Result<Status, Failure> {
     args.region.check()?;
+    if let Some(nodes) = args.nodes.as_deref() {
+        let others = [&args.output, &args.common.report, &args.common.timings];
+        if nodes.as_os_str() == "-"
+            || others.into_iter().any(|other| other.as_deref() == Some(nodes))
+        {
+            let why = "--nodes needs a file of its own";
+            return Err(Failure::Usage(why.to_owned()));
+        }
+    }
     let mut run = Run::new(&args.common)?;
     let format = output_format(args)?;
     let drawing = Drawing {

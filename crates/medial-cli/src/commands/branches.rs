@@ -171,6 +171,9 @@ fn piece_record(
     values.push(piece.bend.name().into());
     values.extend(extent(&piece.extent));
     values.extend(ends(axis, branch));
+    // The boundary is that of the branch.
+    let n = values.len();
+    values[n - 2..].fill(Value::None);
     Record { values, shape: line(&piece.curves, tolerance) }
 }
 

@@ -12,10 +12,13 @@ use medial::engine::interior;
 use medial::geom::Point;
 use medial::ops::{
     Hierarchy, Outline, boundary_distance, disks, polygons_of, signed_area, tangent_polygons,
-    union_of_disks,
+    union_of_disks, without_crossings,
 };
 use medial_io::record::{self, Record, Shape, Value};
 use medial_io::{Feature, default_tolerance};
+
+/// Points along the axis of a feature, at most.
+const MOST_POINTS: f64 = 1e6;
 
 const COLUMNS: &[&str] = &["method", "error", "area"];
 
@@ -100,7 +103,12 @@ fn rebuilt(
     }
     let wrong = |error: &dyn std::fmt::Display| Entry::refused("internal", error.to_string());
     let tolerance = args.tolerance.unwrap_or_else(|| default_tolerance(axis));
-    let step = args.step.unwrap_or(10.0 * tolerance);
+    let step = args.step.unwrap_or(100.0 * tolerance);
+    let length: f64 = axis.paths().iter().map(|path| axis.curve(&path).length()).sum();
+    if args.method != Method::Exact && length / step > MOST_POINTS {
+        let why = format!("more than {MOST_POINTS} points along the axis; take a larger --step");
+        return Err(Entry::refused("too_large", why));
+    }
     // What is between samples has no outline of its own.
     let method = match axis.accuracy {
         Accuracy::Sampled(_) if args.method == Method::Exact => Method::Disks,
@@ -111,13 +119,20 @@ fn rebuilt(
         (Method::Exact, Err(_)) => {
             Outline::new(axis).map_err(|error| wrong(&error))?.polygons(tolerance)
         }
-        (Method::Tangents, _) => tangent_polygons(axis, step).map_err(|error| wrong(&error))?,
+        (Method::Tangents, _) => {
+            without_crossings(&tangent_polygons(axis, step).map_err(|error| wrong(&error))?)
+        }
         (Method::Disks, _) => union_of_disks(&disks(axis, step), tolerance),
     };
     let error = original.map_or(f64::INFINITY, |original| {
         boundary_distance(original, &polygons.concat(), 1e-2 * tolerance)
     });
-    let area = polygons.iter().flatten().map(|ring| signed_area(ring)).sum::<f64>();
+    // Whichever way the rings run.
+    let area = |rings: &Vec<Vec<Point>>| {
+        let [outer, holes @ ..] = &rings[..] else { return 0.0 };
+        signed_area(outer).abs() - holes.iter().map(|hole| signed_area(hole).abs()).sum::<f64>()
+    };
+    let area: f64 = polygons.iter().map(area).sum();
     let values = vec![Value::from(method.name()), error.into(), area.into()];
     Ok(Record { values, shape: Shape::Polygons(polygons) })
 }

@@ -35,9 +35,9 @@ pub use hierarchy::{Hierarchy, HierarchyError, Removal, Significance, Span};
 pub use limbs::{Limb, LimbPair, limb_pairs, limbs};
 pub use measure::Measure;
 pub use outline::{Contour, Outline, OutlineError, OutlinePiece, OutlinePolygon};
-#[cfg(feature = "union")]
-pub use reconstruct::union_of_disks;
 pub use reconstruct::{Disk, ReconstructError, disks, polygons_of, signed_area, tangent_polygons};
+#[cfg(feature = "union")]
+pub use reconstruct::{union_of_disks, without_crossings};
 pub use rest::{Origin, Pruned};
 pub use smooth::{SmoothError, Smoothed, smoothed};
 pub use voronoi::{

@@ -13,7 +13,11 @@
 //! # Departures
 //! Volkmann and St. Clair [VS87, II.C] approximate the outline by tangents of disks; see `reconstruct.rs`.
 
+use std::collections::HashMap;
+use std::f64::consts::TAU;
+
 use super::groups::Groups;
+use super::reconstruct::signed_area;
 use crate::axis::{KeypointKind, MedialAxis, Path, Side, Site, SiteKind};
 use crate::geom::{Point, orient2d};
 
@@ -69,6 +73,13 @@ pub enum OutlineError {
 /// Most points of a flattened arc; only for drawing.
 const MAX_POINTS: f64 = 65_536.0;
 
+/// The largest angle of an arc without a point between: rings of two arcs are rings, whatever the tolerance.
+const WIDEST: f64 = std::f64::consts::FRAC_PI_3;
+
+/// How near to a full circle an arc may be by rounding where it has no angle at all. Disks from which the
+/// axis goes on to smaller ones nearly all around are no maximal disks.
+pub(super) const WRAPPED: f64 = 1e-3;
+
 impl Outline {
     /// The outline of an axis of the interior.
     ///
@@ -114,11 +125,15 @@ impl Outline {
         Ok(Self { polygons: turns.components().into_iter().map(polygon).collect() })
     }
 
-    /// The rings of polygons no farther than a tolerance inside of it, the outer one first.
+    /// The rings of polygons no farther than a tolerance inside of it, the outer one first. A contour that
+    /// comes back to a point of its own, where rings touch, is several rings.
     #[must_use]
     pub fn polygons(&self, tolerance: f64) -> Vec<Vec<Vec<Point>>> {
         let rings = |polygon: &OutlinePolygon| {
-            polygon.0.iter().map(|contour| contour.ring(tolerance)).collect()
+            let contours = polygon.0.iter().map(|contour| contour.ring(tolerance));
+            let mut rings: Vec<_> = contours.flat_map(parted).collect();
+            rings.sort_by_cached_key(|ring| signed_area(ring) <= 0.0);
+            rings
         };
         self.polygons.iter().map(rings).collect()
     }
@@ -148,7 +163,8 @@ impl Contour {
                     let sweep = sweep(centre, from, to);
                     // Half the angle of a chord whose sagitta is the tolerance.
                     let half = (1.0 - tolerance / radius).clamp(-1.0, 1.0).acos();
-                    let n = (sweep / (2.0 * half)).ceil().clamp(1.0, MAX_POINTS);
+                    let n =
+                        (sweep / (2.0 * half)).max(sweep / WIDEST).ceil().clamp(1.0, MAX_POINTS);
                     let start = (from - centre) * (radius / (from - centre).norm());
                     for k in 1..n as u32 {
                         let (sin, cos) = (f64::from(k) * sweep / n).sin_cos();
@@ -186,14 +202,37 @@ impl Contour {
     }
 }
 
+/// A ring, parted where it comes back to a point: each part meets no point twice.
+fn parted(ring: Vec<Point>) -> Vec<Vec<Point>> {
+    let bits = |p: Point| ((p.x + 0.0).to_bits(), (p.y + 0.0).to_bits());
+    let mut parts = Vec::new();
+    let mut open: Vec<Point> = Vec::new();
+    let mut places = HashMap::new();
+    for p in ring {
+        if let Some(&place) = places.get(&bits(p)) {
+            let part = open.split_off(place);
+            for &q in &part {
+                places.remove(&bits(q));
+            }
+            parts.push(part);
+        }
+        places.insert(bits(p), open.len());
+        open.push(p);
+    }
+    parts.push(open);
+    // Two points, there and back, bound nothing.
+    parts.retain(|part| part.len() > 2);
+    parts
+}
+
 /// The angle of an arc, counterclockwise.
 fn sweep(centre: Point, from: Point, to: Point) -> f64 {
     let (u, v) = (from - centre, to - centre);
     let angle = u.cross(v).atan2(u.dot(v));
     if from == to {
-        std::f64::consts::TAU
+        TAU
     } else if angle < 0.0 {
-        angle + std::f64::consts::TAU
+        angle + TAU
     } else {
         angle
     }
@@ -327,7 +366,14 @@ impl<'a> Turns<'a> {
             } else if !meet(&before, &after) {
                 let (centre, radius) = (disk.position, disk.radius);
                 let [from, to] = [foot(&before, centre), foot(&after, centre)];
-                push(&mut pieces, OutlinePiece::Arc { centre, radius, from, to });
+                let closes = self.leaving.of(path.to).len() == 1
+                    && self.axis.curve(&path).growth_at(1.0) > 0.0;
+                if TAU - sweep(centre, from, to) < WRAPPED && !closes {
+                    // An arc of nothing, for a corner that is nearly straight.
+                    push(&mut pieces, OutlinePiece::Corner(from));
+                } else {
+                    push(&mut pieces, OutlinePiece::Arc { centre, radius, from, to });
+                }
             }
         }
         if pieces.len() > 1 && pieces.first() == pieces.last() {

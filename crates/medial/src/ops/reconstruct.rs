@@ -15,10 +15,17 @@
 //! # Departures
 //! None: at branch points nothing is done, as in the paper, and ends get a few points around them.
 
-use super::outline::{Component, OutlineError, Turns};
+#[cfg(feature = "union")]
+use i_overlay::core::fill_rule::FillRule;
+#[cfg(feature = "union")]
+use i_overlay::float::simplify::SimplifyShape;
+
+use super::outline::{Component, OutlineError, Turns, WRAPPED};
 use crate::axis::{Accuracy, Curve, MedialAxis, Side, Site, SiteKind};
 use crate::check::Name;
 use crate::geom::Point;
+#[cfg(feature = "union")]
+use crate::geom::Rect;
 
 /// Why an axis does not give back its polygons.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -181,8 +188,6 @@ pub fn signed_area(ring: &[Point]) -> f64 {
 #[cfg(feature = "union")]
 #[must_use]
 pub fn union_of_disks(disks: &[Disk], tolerance: f64) -> Vec<Vec<Vec<Point>>> {
-    use i_overlay::core::fill_rule::FillRule;
-    use i_overlay::float::simplify::SimplifyShape;
     let flattened = |disk: &Disk| {
         let half = (1.0 - tolerance / disk.radius).clamp(-1.0, 1.0).acos();
         let n = (std::f64::consts::PI / half).ceil().clamp(6.0, MAX_PIECES) as u32;
@@ -193,13 +198,49 @@ pub fn union_of_disks(disks: &[Disk], tolerance: f64) -> Vec<Vec<Vec<Point>>> {
         };
         (0..n).map(point).collect::<Vec<[f64; 2]>>()
     };
-    let all: Vec<Vec<[f64; 2]>> =
-        disks.iter().filter(|disk| disk.radius > 0.0).map(flattened).collect();
-    let ring = |ring: Vec<[f64; 2]>| ring.into_iter().map(|[x, y]| Point::new(x, y)).collect();
-    all.simplify_shape_as::<i64>(FillRule::NonZero)
+    let mut disks: Vec<Disk> = disks.iter().filter(|disk| disk.radius > 0.0).copied().collect();
+    united(&mut disks, &|disks: &[Disk]| disks.iter().map(flattened).collect())
         .into_iter()
-        .map(|shape| shape.into_iter().map(ring).collect())
+        .map(|shape| shape.into_iter().map(points).collect())
         .collect()
+}
+
+/// Polygons without crossings that hold what these rings wind around; the feature `union` has it.
+#[cfg(feature = "union")]
+#[must_use]
+pub fn without_crossings(polygons: &[Vec<Vec<Point>>]) -> Vec<Vec<Vec<Point>>> {
+    let contour = |ring: &Vec<Point>| ring.iter().map(|p| [p.x, p.y]).collect();
+    let all: Vec<Contour> = polygons.iter().flatten().map(contour).collect();
+    let shapes = all.simplify_shape_as::<i64>(FillRule::NonZero);
+    shapes.into_iter().map(|shape| shape.into_iter().map(points).collect()).collect()
+}
+
+#[cfg(feature = "union")]
+type Contour = Vec<[f64; 2]>;
+
+#[cfg(feature = "union")]
+fn points(contour: Contour) -> Vec<Point> {
+    contour.into_iter().map(|[x, y]| Point::new(x, y)).collect()
+}
+
+/// The union of disks, by halves that lie apart: what is inside of a half is gone before the halves meet.
+#[cfg(feature = "union")]
+fn united(disks: &mut [Disk], flattened: &impl Fn(&[Disk]) -> Vec<Contour>) -> Vec<Vec<Contour>> {
+    /// Disks that are put together at once.
+    const FEW: usize = 8;
+    let contours = if disks.len() <= FEW {
+        flattened(disks)
+    } else {
+        let bounds = disks.iter().fold(Rect::EMPTY, |all, disk| all.with(disk.centre));
+        let size = bounds.max - bounds.min;
+        let along = |disk: &Disk| if size.x > size.y { disk.centre.x } else { disk.centre.y };
+        let middle = disks.len() / 2;
+        disks.select_nth_unstable_by(middle, |a, b| along(a).total_cmp(&along(b)));
+        let (one, other) = disks.split_at_mut(middle);
+        let halves = [united(one, flattened), united(other, flattened)];
+        halves.into_iter().flatten().flatten().collect()
+    };
+    contours.simplify_shape_as::<i64>(FillRule::NonZero)
 }
 
 /// What the report does with a disk.
@@ -241,8 +282,12 @@ fn tangent_ring(axis: &MedialAxis, turns: &Turns<'_>, darts: &[u32], step: f64) 
                     continue;
                 };
                 let mut turn = first.cross(last).atan2(first.dot(last));
-                if turn <= 0.0 {
+                if turn < -WRAPPED {
                     turn += std::f64::consts::TAU;
+                }
+                if turn <= 0.0 {
+                    ring.push(disk.centre + first * disk.radius);
+                    continue;
                 }
                 for k in 0..=AROUND_AN_END + 1 {
                     let (sin, cos) = (turn * f64::from(k) / f64::from(AROUND_AN_END + 1)).sin_cos();
