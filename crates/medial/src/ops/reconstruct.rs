@@ -199,10 +199,7 @@ pub fn union_of_disks(disks: &[Disk], tolerance: f64) -> Vec<Vec<Vec<Point>>> {
         (0..n).map(point).collect::<Vec<[f64; 2]>>()
     };
     let mut disks: Vec<Disk> = disks.iter().filter(|disk| disk.radius > 0.0).copied().collect();
-    united(&mut disks, &|disks: &[Disk]| disks.iter().map(flattened).collect())
-        .into_iter()
-        .map(|shape| shape.into_iter().map(points).collect())
-        .collect()
+    without_slivers(united(&mut disks, &|disks: &[Disk]| disks.iter().map(flattened).collect()))
 }
 
 /// Polygons without crossings that hold what these rings wind around; the feature `union` has it.
@@ -211,16 +208,29 @@ pub fn union_of_disks(disks: &[Disk], tolerance: f64) -> Vec<Vec<Vec<Point>>> {
 pub fn without_crossings(polygons: &[Vec<Vec<Point>>]) -> Vec<Vec<Vec<Point>>> {
     let contour = |ring: &Vec<Point>| ring.iter().map(|p| [p.x, p.y]).collect();
     let all: Vec<Contour> = polygons.iter().flatten().map(contour).collect();
-    let shapes = all.simplify_shape_as::<i64>(FillRule::NonZero);
-    shapes.into_iter().map(|shape| shape.into_iter().map(points).collect()).collect()
+    without_slivers(all.simplify_shape_as::<i64>(FillRule::Positive))
 }
 
 #[cfg(feature = "union")]
 type Contour = Vec<[f64; 2]>;
 
+/// The rings of shapes, but for those that rounding made: their area is nothing beside that of the box of
+/// all shapes.
 #[cfg(feature = "union")]
-fn points(contour: Contour) -> Vec<Point> {
-    contour.into_iter().map(|[x, y]| Point::new(x, y)).collect()
+fn without_slivers(shapes: Vec<Vec<Contour>>) -> Vec<Vec<Vec<Point>>> {
+    /// That share is no ring anybody drew.
+    const NOTHING: f64 = 1e-12;
+    let points = |contour: &Contour| -> Vec<Point> {
+        contour.iter().map(|&[x, y]| Point::new(x, y)).collect()
+    };
+    let mut polygons: Vec<Vec<Vec<Point>>> =
+        shapes.iter().map(|shape| shape.iter().map(points).collect()).collect();
+    let bounds = polygons.iter().flatten().flatten().fold(Rect::EMPTY, |all, &p| all.with(p));
+    let least = NOTHING * (bounds.max - bounds.min).norm2();
+    let is_ring = |ring: &Vec<Point>| signed_area(ring).abs() > least;
+    polygons.retain(|rings| rings.first().is_some_and(is_ring));
+    polygons.iter_mut().for_each(|rings| rings.retain(is_ring));
+    polygons
 }
 
 /// The union of disks, by halves that lie apart: what is inside of a half is gone before the halves meet.
