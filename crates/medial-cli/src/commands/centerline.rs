@@ -44,6 +44,10 @@ pub fn run(args: &CenterlineArgs) -> Result<Status, Failure> {
                 Ok((lines, drawn))
             })
             .map_err(|error| Entry::no_line(&error))?;
+            if lines.is_empty() {
+                let why = "no line is wide enough for the text; take a smaller --height";
+                return Err(Entry::refused("no_line", why));
+            }
             if format == Format::Svg {
                 let points = |line: &Vec<(Point, f64)>| line.iter().map(|(p, _)| *p).collect();
                 let lines = drawn.iter().map(points).collect();
