@@ -1,6 +1,6 @@
 use super::features::Run;
 use super::sink::{Sink, draw, encode, title};
-use crate::args::{AxisArgs, Height, Region, Sides};
+use crate::args::{AxisArgs, Height, Pruning, Region, Sides};
 use crate::failure::{Failure, Status};
 use crate::input::Documents;
 use crate::output::Output;
@@ -137,6 +137,13 @@ fn measured(
         }
         None => (axis.clone(), measures.map(|&measure| hierarchy.significance(measure)).collect()),
     })
+}
+
+/// What pruning leaves of an axis, if it was asked for.
+pub fn pruned(pruning: &Pruning, domain: &Domain, axis: MedialAxis) -> Result<MedialAxis, Entry> {
+    let Some((measure, value)) = pruning.threshold() else { return Ok(axis) };
+    let hierarchy = Hierarchy::new(domain, &axis).map_err(|error| Entry::internal(&error))?;
+    Ok(hierarchy.pruned(measure, value).axis)
 }
 
 /// The axes of a feature by an engine, one for each side that is asked for, or why it is refused.

@@ -1,7 +1,7 @@
-use super::axis::trace;
+use super::axis::{pruned, trace};
 use super::features::Run;
 use super::records::{LINES, Plan};
-use crate::args::{BranchesArgs, Cut, Sides};
+use crate::args::{BranchesArgs, Cut};
 use crate::failure::{Failure, Status};
 use crate::input::Documents;
 use crate::output::Output;
@@ -12,7 +12,7 @@ use medial::domain::Domain;
 use medial::engine::{self, both_sides};
 use medial::geom::Point;
 use medial::ops::{
-    Branch, BranchPiece, Extent, Hierarchy, Limb, LimbPair, Measure, branches, limb_pairs, limbs,
+    Branch, BranchPiece, Extent, Limb, LimbPair, Measure, branches, limb_pairs, limbs,
 };
 use medial_io::record::{Record, Shape, Value};
 use medial_io::{Feature, domain_tolerance, limb_document};
@@ -75,7 +75,8 @@ pub fn run(args: &BranchesArgs) -> Result<Status, Failure> {
     plan.run(run, &input, |_, domain, stages, options| {
         let tolerance = args.tolerance.unwrap_or_else(|| domain_tolerance(domain));
         if args.limbs {
-            let sides = sides(args.engine, domain, stages, options)?;
+            let sides =
+                timed(&mut stages.engine, || trace(args.engine, &args.region, domain, options))?;
             let limbs = timed(&mut stages.operations, || all_limbs(args, domain, &sides))?;
             return Ok((0_usize..)
                 .zip(&limbs)
@@ -86,15 +87,7 @@ pub fn run(args: &BranchesArgs) -> Result<Status, Failure> {
         timed(&mut stages.operations, || {
             let mut records = Vec::new();
             for axis in axes {
-                let axis = match args.pruning.threshold() {
-                    Some((measure, value)) => {
-                        Hierarchy::new(domain, &axis)
-                            .map_err(|error| Entry::internal(&error))?
-                            .pruned(measure, value)
-                            .axis
-                    }
-                    None => axis,
-                };
+                let axis = pruned(&args.pruning, domain, axis)?;
                 for (number, branch) in branches(&axis).iter().enumerate() {
                     match args.by {
                         Cut::Branch => {
@@ -192,20 +185,13 @@ fn sides(
 fn all_limbs(
     args: &BranchesArgs,
     domain: &Domain,
-    sides: &[MedialAxis; 2],
+    sides: &[MedialAxis],
 ) -> Result<Vec<Limb>, Entry> {
     let (measure, threshold) = args.pruning.threshold().unwrap_or(LIMB);
     let mut all = Vec::new();
     for axis in sides {
-        let wanted = match args.region.side {
-            Sides::Interior => axis.side == Side::Interior,
-            Sides::Exterior => axis.side == Side::Exterior,
-            Sides::Both => true,
-        };
-        if wanted || args.matching.is_some() {
-            let limbs = limbs(domain, axis, measure, threshold);
-            all.extend(limbs.map_err(|error| Entry::internal(&error))?);
-        }
+        let limbs = limbs(domain, axis, measure, threshold);
+        all.extend(limbs.map_err(|error| Entry::internal(&error))?);
     }
     Ok(all)
 }

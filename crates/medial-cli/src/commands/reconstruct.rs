@@ -1,5 +1,7 @@
+use super::axis::pruned;
 use super::features::Run;
 use super::records::{POLYGONS, Plan};
+use super::sink::boundary;
 use crate::args::{Method, ReconstructArgs};
 use crate::failure::{Failure, Status};
 use crate::input::{Input, Opened};
@@ -7,12 +9,11 @@ use crate::progress::Progress;
 use crate::report::Entry;
 use crate::timings::timed;
 use medial::axis::{Accuracy, MedialAxis, Side};
-use medial::domain::Walk;
 use medial::engine::interior;
 use medial::geom::Point;
 use medial::ops::{
-    Hierarchy, Outline, boundary_distance, disks, polygons_of, signed_area, tangent_polygons,
-    union_of_disks, without_crossings,
+    Outline, boundary_distance, disks, polygons_of, signed_area, tangent_polygons, union_of_disks,
+    without_crossings,
 };
 use medial_io::record::{self, Record, Shape, Value};
 use medial_io::{Feature, default_tolerance};
@@ -37,17 +38,11 @@ pub fn run(args: &ReconstructArgs) -> Result<Status, Failure> {
         Opened::Polygons(polygons) => polygons,
     };
     plan.run(run, &input, |_, domain, stages, options| {
-        let mut axis = timed(&mut stages.engine, || interior(domain, args.engine, options))
+        let axis = timed(&mut stages.engine, || interior(domain, args.engine, options))
             .map_err(|error| Entry::unfinished(&error))?;
         timed(&mut stages.operations, || {
-            let corners = |walk: &Walk| walk.edges().map(|k| domain.edge(k).start).collect();
-            let original: Vec<Vec<Point>> = domain.walks().iter().map(corners).collect();
-            if let Some((measure, value)) = args.pruning.threshold() {
-                axis = Hierarchy::new(domain, &axis)
-                    .map_err(|error| Entry::internal(&error))?
-                    .pruned(measure, value)
-                    .axis;
-            }
+            let axis = pruned(&args.pruning, domain, axis)?;
+            let original = boundary(domain);
             Ok(vec![rebuilt(args, &axis, Some(&original))?])
         })
     })

@@ -251,9 +251,11 @@ impl Branch {
             }
         }
         for piece in &mut pieces {
-            piece.extent = Extent::of(&piece.curves);
+            let parts: SmallVec<[Extent; 4]> = piece.curves.iter().map(Extent::of).collect();
+            piece.extent = Extent::joined(&parts);
         }
-        let extent = Extent::of_pieces(&pieces);
+        let parts: SmallVec<[Extent; 4]> = pieces.iter().map(|piece| piece.extent).collect();
+        let extent = Extent::joined(&parts);
         let left = BoundaryPiece::beside(axis, &paths, |path| path.left);
         let right = BoundaryPiece::beside(axis, &paths, |path| path.right);
         Self { paths, numbers, pieces, extent, left, right, is_closed }
@@ -306,46 +308,36 @@ impl Extent {
         radius_mean: 0.0,
     };
 
-    /// That of pieces that follow one another.
-    fn of_pieces(pieces: &[BranchPiece]) -> Self {
-        let (Some(first), Some(last)) = (pieces.first(), pieces.last()) else {
+    /// That of parts that follow one another.
+    fn joined(parts: &[Self]) -> Self {
+        let (Some(first), Some(last)) = (parts.first(), parts.last()) else {
             return Self::NOTHING;
         };
-        let all = || pieces.iter().map(|piece| &piece.extent);
-        let length: f64 = all().map(|e| e.length).sum();
-        let radius_max = all().map(|e| e.radius_max).fold(0.0, f64::max);
-        let radius_min = all().map(|e| e.radius_min).fold(radius_max, f64::min);
-        let sum: f64 = all().map(|e| e.length * e.radius_mean).sum();
+        let length: f64 = parts.iter().map(|e| e.length).sum();
+        let radius_max = parts.iter().map(|e| e.radius_max).fold(0.0, f64::max);
+        let radius_min = parts.iter().map(|e| e.radius_min).fold(radius_max, f64::min);
+        let sum: f64 = parts.iter().map(|e| e.length * e.radius_mean).sum();
         let mean = if length > 0.0 { sum / length } else { radius_max };
         Self {
             length,
-            area: all().map(|e| e.area).sum(),
-            radius_start: first.extent.radius_start,
-            radius_end: last.extent.radius_end,
+            area: parts.iter().map(|e| e.area).sum(),
+            radius_start: first.radius_start,
+            radius_end: last.radius_end,
             radius_min,
             radius_max,
             radius_mean: mean.clamp(radius_min, radius_max),
         }
     }
 
-    /// That of curves that follow one another.
-    fn of(curves: &[Curve]) -> Self {
-        let radius = |end: Option<f64>| end.unwrap_or(0.0);
-        let lengths: SmallVec<[f64; 4]> = curves.iter().map(Curve::length).collect();
-        let length: f64 = lengths.iter().sum();
-        let radius_max = curves.iter().map(Curve::radius_max).fold(0.0, f64::max);
-        let radius_min = curves.iter().map(Curve::radius_min).fold(radius_max, f64::min);
-        let sums = curves.iter().zip(&lengths).map(|(curve, length)| length * curve.radius_mean());
-        let sum: f64 = sums.sum();
-        let mean = if length > 0.0 { sum / length } else { radius_max };
+    fn of(curve: &Curve) -> Self {
         Self {
-            length,
-            area: curves.iter().map(Curve::strip_area).sum(),
-            radius_start: radius(curves.first().map(Curve::radius_from)),
-            radius_end: radius(curves.last().map(Curve::radius_to)),
-            radius_min,
-            radius_max,
-            radius_mean: mean.clamp(radius_min, radius_max),
+            length: curve.length(),
+            area: curve.strip_area(),
+            radius_start: curve.radius_from(),
+            radius_end: curve.radius_to(),
+            radius_min: curve.radius_min(),
+            radius_max: curve.radius_max(),
+            radius_mean: curve.radius_mean(),
         }
     }
 }

@@ -11,6 +11,7 @@
 
 use std::ops::Range;
 
+use super::outline::foot_on;
 use crate::geom::{BoundsTree, Point, Rect, Visitor};
 
 /// The Hausdorff distance between the boundaries of two lists of rings, in units of the input, too large by
@@ -104,16 +105,8 @@ impl Segments {
         if p == a || p == b {
             return 0.0;
         }
-        let along = b - a;
-        let length2 = along.norm2();
-        let share = if length2 > 0.0 { along.dot(p - a) / length2 } else { 0.0 };
-        if share <= 0.0 {
-            (p - a).norm()
-        } else if share >= 1.0 {
-            (p - b).norm()
-        } else {
-            (p - (a + along * share)).norm()
-        }
+        // Ends are met exactly.
+        (p - foot_on(a, b, p)).norm()
     }
 }
 
@@ -127,11 +120,7 @@ struct Nearest<'a> {
 
 impl Visitor for Nearest<'_> {
     fn enters(&self, bounds: &Rect, _: Range<u32>) -> bool {
-        let out = |low: f64, x: f64, high: f64| (low - x).max(x - high).max(0.0);
-        let p = self.p;
-        let x = out(bounds.min.x, p.x, bounds.max.x);
-        let y = out(bounds.min.y, p.y, bounds.max.y);
-        x * x + y * y < self.distance * self.distance
+        bounds.distance2(self.p) < self.distance * self.distance
     }
 
     fn item(&mut self, segment: u32) {

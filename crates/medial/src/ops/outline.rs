@@ -412,17 +412,22 @@ fn along(edge: &Site) -> Point {
 
 /// The point of a site that is nearest to a point.
 pub(super) fn foot(site: &Site, p: Point) -> Point {
-    let along = site.b - site.a;
+    foot_on(site.a, site.b, p)
+}
+
+/// The point of a segment that is nearest to a point.
+pub(super) fn foot_on(a: Point, b: Point, p: Point) -> Point {
+    let along = b - a;
     let length2 = along.norm2();
     if length2 == 0.0 {
-        return site.a;
+        return a;
     }
-    let share = along.dot(p - site.a) / length2;
+    let share = along.dot(p - a) / length2;
     if share <= 0.0 {
-        site.a
+        a
     } else if share >= 1.0 {
-        site.b
+        b
     } else {
-        site.a + along * share
+        a + along * share
     }
 }

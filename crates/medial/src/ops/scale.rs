@@ -68,12 +68,7 @@ impl Visitor for Least<'_> {
         }
         let number = items.start as usize / FAN.pow(level as u32 + 1);
         let more = self.all.greatest[level][number] - self.radius;
-        let out = |low: f64, x: f64, high: f64| (low - x).max(x - high).max(0.0);
-        let (x, y) = (
-            out(bounds.min.x, self.centre.x, bounds.max.x),
-            out(bounds.min.y, self.centre.y, bounds.max.y),
-        );
-        more > 0.0 && x.hypot(y) < self.value * more
+        more > 0.0 && bounds.distance2(self.centre).sqrt() < self.value * more
     }
 
     fn item(&mut self, disk: u32) {
