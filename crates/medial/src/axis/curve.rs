@@ -10,6 +10,8 @@
 //! polynomials or single roots of it. Public parameters run from 0 at `from` to 1 at `to` and are
 //! affine in the natural parameter, so a parameter of a parabola is also that of its Bézier form.
 
+use super::hyperbolic::{asinh, hypot};
+use super::sites::SiteShape;
 use super::{CurveKind, Keypoint, MedialAxis, Path, Site, SiteKind};
 use crate::geom::Point;
 
@@ -63,6 +65,17 @@ impl Curve {
     /// line between the keypoints. Such a pair governs no path of an axis.
     #[must_use]
     pub fn new(left: &Site, right: &Site, from: (Point, f64), to: (Point, f64)) -> Self {
+        Self::between(&left.into(), &right.into(), from, to)
+    }
+
+    /// The same without places in the input.
+    #[inline]
+    pub(crate) fn between(
+        left: &SiteShape,
+        right: &SiteShape,
+        from: (Point, f64),
+        to: (Point, f64),
+    ) -> Self {
         let form = match (left.kind, right.kind) {
             (SiteKind::Edge, SiteKind::Edge) => Form::Linear,
             (SiteKind::Vertex, SiteKind::Vertex) => corners(left.a, right.a, from.0, to.0),
@@ -141,7 +154,7 @@ impl Curve {
         let between = |[a, b]: [f64; 2]| a * (1.0 - u) + b * u;
         match self.form {
             Form::Linear => between([self.radius_from, self.radius_to]),
-            Form::Corners { half, s } => half.hypot(between(s)),
+            Form::Corners { half, s } => hypot(half, between(s)),
             Form::Parabola { d, x, .. } => {
                 let x = between(x);
                 (x * x + d * d) / (2.0 * d)
@@ -202,15 +215,10 @@ impl Curve {
     /// The length of the curve.
     #[must_use]
     pub fn length(&self) -> f64 {
-        let Form::Parabola { d, x: [x1, x2], .. } = self.form else {
+        let Form::Parabola { d, x, .. } = self.form else {
             return (self.to - self.from).norm();
         };
-        let (w1, w2) = (x1.hypot(d), x2.hypot(d));
-        let span = x2 - x1;
-        let m = span * (x1 + x2) / (w1 + w2); // w2 - w1 without cancellation
-        let chordal = (span * w2 + x1 * m) / (2.0 * d);
-        let turning = 0.5 * d * ((span * w1 - x1 * m) / (d * d)).asinh();
-        (chordal + turning).abs()
+        Spread::new(d, x).length_of_parabola(d)
     }
 
     /// The parameter of the point so far along the curve from its start, in units of the input.
@@ -251,23 +259,29 @@ impl Curve {
     /// ```
     #[must_use]
     pub fn radius_mean(&self) -> f64 {
+        self.length_and_mean().1
+    }
+
+    /// The length and the mean radius.
+    pub(crate) fn length_and_mean(&self) -> (f64, f64) {
         // With x = d sinh t the radius is d cosh t between corners, (d/2) cosh² t on a parabola, and sums
         // along x or along the curve are those of powers of cosh t.
-        let (d, [x1, x2]) = match self.form {
-            Form::Linear => return 0.5 * (self.radius_from + self.radius_to),
+        let (d, x) = match self.form {
+            Form::Linear => return (self.length(), 0.5 * (self.radius_from + self.radius_to)),
             Form::Corners { half, s } => (half, s),
             Form::Parabola { d, x, .. } => (d, x),
         };
-        let (w1, w2) = (x1.hypot(d), x2.hypot(d));
-        let span = x2 - x1;
-        let m = span * (x1 + x2) / (w1 + w2); // w2 - w1 without cancellation
-        let sinh = (span * w1 - x1 * m) / (d * d); // that of the difference of both t
-        let difference = sinh.asinh();
+        let spread = Spread::new(d, x);
+        let Spread { span, sinh, difference, .. } = spread;
+        let length = match self.form {
+            Form::Parabola { .. } => spread.length_of_parabola(d),
+            _ => self.length(),
+        };
         if difference == 0.0 {
-            return 0.5 * (self.radius_from + self.radius_to);
+            return (length, 0.5 * (self.radius_from + self.radius_to));
         }
         // cosh(t1 + t2), and twice the integral of cosh² t.
-        let cosh = (w1 * w2 + x1 * x2) / (d * d);
+        let cosh = (spread.w[0] * spread.w[1] + x[0] * x[1]) / (d * d);
         let squares = difference + cosh * sinh;
         let mean = match self.form {
             Form::Parabola { .. } => {
@@ -279,7 +293,7 @@ impl Curve {
             }
             _ => 0.5 * d * squares / (span / d),
         };
-        mean.clamp(self.radius_min(), self.radius_max())
+        (length, mean.clamp(self.radius_min(), self.radius_max()))
     }
 
     /// The area between the curve and the boundary on both sides: all lines from its points to their
@@ -320,7 +334,7 @@ impl Curve {
         let u = u.clamp(0.0, 1.0);
         let slope = |[a, b]: [f64; 2], scale: f64| {
             let x = a * (1.0 - u) + b * u;
-            if a <= b { x / x.hypot(scale) } else { -x / x.hypot(scale) }
+            if a <= b { x / hypot(x, scale) } else { -x / hypot(x, scale) }
         };
         match self.form {
             Form::Linear => {
@@ -484,12 +498,44 @@ impl MedialAxis {
     /// If `path` names a keypoint or a site the axis does not have.
     #[must_use]
     pub fn curve(&self, path: &Path) -> Curve {
-        let sites = self.sites();
         let end = |k: u32| {
             let Keypoint { position, radius, .. } = self.keypoints().at(k);
             (position, radius)
         };
-        Curve::new(&sites.at(path.left), &sites.at(path.right), end(path.from), end(path.to))
+        let (left, right) = (self.site_shape(path.left), self.site_shape(path.right));
+        Curve::between(&left, &right, end(path.from), end(path.to))
+    }
+}
+
+/// How far both ends of a curve are apart in the parameter `t` of `x = d sinh t`.
+#[derive(Clone, Copy, Debug)]
+struct Spread {
+    /// `x2 - x1`.
+    span: f64,
+    /// `d cosh t` at both ends, and the difference of the two.
+    w: [f64; 2],
+    rise: f64,
+    /// `t2 - t1`, and its hyperbolic sine.
+    difference: f64,
+    sinh: f64,
+    x1: f64,
+}
+
+impl Spread {
+    #[inline]
+    fn new(d: f64, [x1, x2]: [f64; 2]) -> Self {
+        let w = [hypot(x1, d), hypot(x2, d)];
+        let span = x2 - x1;
+        let rise = span * (x1 + x2) / (w[0] + w[1]); // w2 - w1 without cancellation
+        let sinh = (span * w[0] - x1 * rise) / (d * d);
+        Self { span, w, rise, difference: asinh(sinh), sinh, x1 }
+    }
+
+    /// The length of the parabola whose focus is `d` from its line.
+    #[inline]
+    fn length_of_parabola(&self, d: f64) -> f64 {
+        let chordal = (self.span * self.w[1] + self.x1 * self.rise) / (2.0 * d);
+        (chordal + 0.5 * d * self.difference).abs()
     }
 }
 
@@ -504,7 +550,7 @@ fn corners(p: Point, q: Point, from: Point, to: Point) -> Form {
     Form::Corners { half: 0.5 * distance, s: [along.dot(from - middle), along.dot(to - middle)] }
 }
 
-fn parabola(focus: Point, edge: &Site, from: (Point, f64), to: (Point, f64)) -> Form {
+fn parabola(focus: Point, edge: &SiteShape, from: (Point, f64), to: (Point, f64)) -> Form {
     // On the exterior the focus lies to the right of the edge.
     let across = accurate_cross(edge.a, edge.b, focus);
     let direction = if across < 0.0 { edge.a - edge.b } else { edge.b - edge.a };

@@ -2,7 +2,7 @@ use std::fmt;
 
 use super::keypoints::{KeypointTable, Keypoints};
 use super::paths::{PathTable, Paths};
-use super::sites::{SiteTable, Sites};
+use super::sites::{SiteShape, SiteTable, Sites};
 use crate::geom::Point;
 
 /// The engine that computed an axis; `Display` gives its name in files and commands.
@@ -174,6 +174,12 @@ impl MedialAxis {
     #[must_use]
     pub fn sites(&self) -> Sites<'_> {
         Sites(&self.sites)
+    }
+
+    /// A site without its place in the input, which takes a search.
+    #[inline]
+    pub(crate) fn site_shape(&self, site: u32) -> SiteShape {
+        self.sites.shape(site)
     }
 
     /// All keypoints.

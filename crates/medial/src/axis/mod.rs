@@ -2,6 +2,7 @@
 
 mod curve;
 mod draw;
+mod hyperbolic;
 mod keypoints;
 mod medial_axis;
 mod names;

@@ -6,6 +6,22 @@ use super::views::view;
 use super::{Site, SiteKind};
 use crate::geom::Point;
 
+/// Where a site is, without its place in the input.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct SiteShape {
+    pub kind: SiteKind,
+    /// As of [`Site`].
+    pub a: Point,
+    pub b: Point,
+}
+
+impl From<&Site> for SiteShape {
+    #[inline]
+    fn from(&Site { kind, a, b, .. }: &Site) -> Self {
+        Self { kind, a, b }
+    }
+}
+
 /// What keeps the sites: eight bytes each, and their points.
 ///
 /// A site along a walk starts where the one before it ends, so points are numbered as they come,
@@ -147,24 +163,40 @@ impl SiteTable {
     }
 
     fn at(&self, number: u32) -> Site {
-        let Record { start, index } = self.records[number as usize];
+        let index = self.records[number as usize].index;
+        let (SiteShape { kind, a, b }, part) = self.shape_and_part(number);
+        // The first run starts with the first site.
+        let run = self.runs.partition_point(|run| run.first <= number) - 1;
+        let Run { polygon, ring, .. } = self.runs[run];
+        Site { kind, polygon, ring, index, part, a, b }
+    }
+
+    /// A site without its place in the input, which takes a search.
+    #[inline]
+    pub fn shape(&self, number: u32) -> SiteShape {
+        self.shape_and_part(number).0
+    }
+
+    #[inline(always)]
+    fn shape_and_part(&self, number: u32) -> (SiteShape, u32) {
+        let start = self.records[number as usize].start;
         let (kind, usual) = match start & VERTEX {
             0 => (SiteKind::Edge, (start & POINT) + 1),
             _ => (SiteKind::Vertex, start & POINT),
         };
         let (part, end) = match start & LISTED {
             0 => (0, usual),
-            _ => {
-                let found = self.listed.partition_point(|l| l.site < number);
-                let Listed { part, end, .. } = self.listed[found];
-                (part, end)
-            }
+            _ => self.listed_at(number),
         };
-        // The first run starts with the first site.
-        let run = self.runs.partition_point(|run| run.first <= number) - 1;
-        let Run { polygon, ring, .. } = self.runs[run];
         let (a, b) = (self.points[(start & POINT) as usize], self.points[end as usize]);
-        Site { kind, polygon, ring, index, part, a, b }
+        (SiteShape { kind, a, b }, part)
+    }
+
+    #[cold]
+    fn listed_at(&self, number: u32) -> (u32, u32) {
+        let found = self.listed.partition_point(|l| l.site < number);
+        let Listed { part, end, .. } = self.listed[found];
+        (part, end)
     }
 }
 

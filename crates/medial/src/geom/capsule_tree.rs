@@ -14,7 +14,7 @@
 //! 4. A visit takes the children near what the visitor names first, then those at both ends, then by
 //!    halves: so a visitor that looks for less the more it has met soon does, whichever way the boundary
 //!    leads.
-//! 5. Where that leaves too much, runs are bounded by circles as well ([`super::rounds`]).
+//! 5. Where that leaves too much, runs are measured by circles near them as well ([`super::rims`]).
 //!
 //! # Departures
 //! None.
@@ -23,7 +23,6 @@ use std::sync::OnceLock;
 
 use super::lanes::{FAN, Lanes, Node, Query, VANISHING, Wide};
 use super::rims::{Hoop, Pinned, Rim, SOME, circle};
-use super::rounds::Round;
 use super::{Point, Rect, hilbert};
 
 /// Edges of a leaf, at most.
@@ -120,9 +119,7 @@ pub struct CapsuleTree {
     /// Where each level of `nodes` starts.
     levels: Vec<u32>,
     wide: Option<Wide>,
-    /// Circles for the runs below each level, once somebody asks for them.
-    rounds: OnceLock<Vec<Vec<Round>>>,
-    /// The edges of each leaf relative to a circle, from then on.
+    /// The edges of each leaf relative to a circle, once somebody asks for that.
     rims: OnceLock<Vec<Rim>>,
     /// The runs below each level relative to circles, from then on.
     hoops: OnceLock<Vec<Vec<Hoop>>>,
@@ -196,7 +193,7 @@ impl CapsuleTree {
             runs = above;
         }
         let wide = Wide::detect();
-        let (rounds, rims, hoops) = (OnceLock::new(), OnceLock::new(), OnceLock::new());
+        let (rims, hoops) = (OnceLock::new(), OnceLock::new());
         Self {
             order,
             base,
@@ -208,30 +205,17 @@ impl CapsuleTree {
             nodes,
             levels,
             wide,
-            rounds,
             rims,
             hoops,
         }
     }
 
-    /// Bounds runs by circles as well, for boundaries that follow the rims of the disks looked into;
+    /// Measures runs by circles as well, for boundaries that follow the rims of the disks looked into;
     /// `ends` gives the two ends of an edge.
-    pub fn round_off(&self, ends: impl Fn(u32) -> (Point, Point)) {
+    pub fn follow_rims(&self, ends: impl Fn(u32) -> (Point, Point)) {
         if self.order.is_some() {
             return;
         }
-        self.rounds.get_or_init(|| {
-            let sizes = (1..=self.levels.len() as u32).map(|level| 1_u32 << (3 * level));
-            let of = |size: u32| {
-                let runs = (0..self.n_edges).step_by(size as usize);
-                let run = |first: u32| {
-                    let end = (first + size).min(self.n_edges);
-                    Round::around((self.base + first..self.base + end).map(&ends))
-                };
-                runs.map(run).collect()
-            };
-            sizes.map(of).collect()
-        });
         let rims = self.rims.get_or_init(|| {
             let mut rims = Vec::with_capacity(self.leaves.len());
             let at = |k: u32| ends(self.base + k);
@@ -339,12 +323,6 @@ impl CapsuleTree {
                     let hoop = &hoops[level as usize - 1][number as usize];
                     mask = hoop.sift(disk, mask, self.wide);
                 }
-                if mask.count_ones() > PAIR
-                    && let Some(rounds) = self.rounds.get()
-                {
-                    mask &=
-                        rounded(&rounds[level as usize - 1][first as usize..], look.scope(), mask);
-                }
                 if mask != 0 {
                     let mut child = (near >> (3 * level)).wrapping_sub(first);
                     if child >= FAN as u32 || mask >> child & 1 == 0 {
@@ -397,18 +375,6 @@ impl CapsuleTree {
             }
         }
     }
-}
-
-/// A bit for each of the children asked for that a circle does not show to be beyond a disk.
-#[inline(never)]
-fn rounded(rounds: &[Round], scope: &Scope, asked: u32) -> u32 {
-    let mut mask = asked;
-    for (k, round) in rounds.iter().take(FAN).enumerate() {
-        if asked >> k & 1 != 0 && round.is_beyond(scope.centre, scope.reach) {
-            mask &= !(1 << k);
-        }
-    }
-    mask
 }
 
 /// What is looked for now.

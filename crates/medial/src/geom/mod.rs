@@ -10,7 +10,6 @@ mod orient;
 mod point;
 pub mod predicates;
 mod rims;
-mod rounds;
 
 pub use bounds_tree::{BoundsTree, Rect, Visitor};
 pub use capsule_tree::{CapsuleTree, Hidden, LEAF, Look, Scope};

@@ -317,7 +317,8 @@ impl Pinned {
     #[must_use]
     pub fn touching(lines: [(&Rim, usize); 3]) -> Option<Self> {
         let (base, base_radius) = (lines[1].0.centre, lines[1].0.radius);
-        let [n1, n2, n3] = lines.map(|(rim, k)| Point::new(rim.nx[k], rim.ny[k]));
+        let normal = |(rim, k): (&Rim, usize)| Point::new(rim.nx[k], rim.ny[k]);
+        let [n1, n2, n3] = [normal(lines[0]), normal(lines[1]), normal(lines[2])];
         let (b, e) = (n2 - n1, n3 - n1);
         let (lb, le) = (b.norm(), e.norm());
         let cross = b.cross(e);
@@ -337,31 +338,34 @@ impl Pinned {
             open: [f64::INFINITY; 3],
             per,
         };
-        let residual = |disk: &Self, (rim, k): (&Rim, usize)| {
+        // Not `map`, which is not always inlined.
+        let residual = |disk: &Self, line: usize| {
+            let (rim, k) = lines[line];
             let Moved { by, more, error } = rim.moved(disk);
             ((rim.nx[k] * by.x + rim.ny[k] * by.y + rim.rest[k]) - more, error)
         };
-        let sides = [(n2 - n3).norm(), le, lb].map(|side| side + 16.0 * U);
+        let sides = [(n2 - n3).norm() + 16.0 * U, le + 16.0 * U, lb + 16.0 * U];
         let factor = 2.0 * per * (1.0 + 32.0 * U);
         for _ in 0..3 {
-            let [(p1, _), (p2, _), (p3, _)] = lines.map(|line| residual(&disk, line));
+            let (p1, p2, p3) = (residual(&disk, 0).0, residual(&disk, 1).0, residual(&disk, 2).0);
             let (p12, p13) = (p1 - p2, p1 - p3);
             let dx = Point::new((p12 * e.y - p13 * b.y) / cross, (b.x * p13 - e.x * p12) / cross);
             let mut next = disk;
             next.centre = disk.centre + dx;
             next.radius = disk.radius + (p1 + n1.dot(dx));
-            let rests = lines.map(|line| {
+            let mut is_sharp = true;
+            for line in 0..3 {
                 let (rest, error) = residual(&next, line);
-                (rest.abs(), error)
-            });
-            next.open = rests.map(|(rest, error)| rest + error);
+                next.open[line] = rest.abs() + error;
+                is_sharp &= rest.abs() <= error;
+            }
             next.bound = factor
                 * (sides[0] * next.open[0] + sides[1] * next.open[1] + sides[2] * next.open[2]);
             if next.bound.is_nan() || next.bound >= disk.bound {
                 break;
             }
             disk = next;
-            if rests.iter().all(|&(rest, error)| rest <= error) {
+            if is_sharp {
                 break;
             }
         }

@@ -48,6 +48,10 @@ const FAR: f64 = 3.0;
 /// doubt would be asked of exact arithmetic one by one.
 pub(super) const POOR: f64 = 1e-9;
 
+/// The same for a disk that is known relative to a circle near it: towards edges near its governors it is
+/// known far better than its bound tells.
+pub(super) const POOR_RELATIVE: f64 = 1e-7;
+
 /// A transition that was passed.
 #[derive(Clone, Debug)]
 pub(super) struct Passed {

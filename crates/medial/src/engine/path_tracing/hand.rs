@@ -79,17 +79,18 @@ impl<'a> Hand<'a> {
         self.traced.add(edge.start, 0.0, KeypointKind::End, &[a.min(b), a.max(b)])
     }
 
-    /// Adds a keypoint with these governors; `fixed` tells whether its disk depends on them only.
+    /// Adds a keypoint with these governors; `own` is the disk that doubles find for them alone, if that
+    /// is known.
     pub fn add_keypoint(
         &mut self,
         disk: &TouchingDisk,
         triple: [Site; 3],
         list: &[Site],
-        fixed: bool,
+        own: Option<TouchingDisk>,
     ) -> Result<u32, EngineError> {
         // The position depends on the governors only, not on how the keypoint was found.
         let (own, sought) = match *list {
-            _ if fixed => (Some(*disk), false),
+            _ if own.is_some() => (own, false),
             [a, b, c] => (TouchingDisk::touching(&self.domain.governors([a, b, c])), true),
             _ => (facing(self.domain, list), false),
         };

@@ -325,7 +325,8 @@ impl Search<'_> {
             return Err(Some(disk));
         }
         self.leave_out_those_in(&triple);
-        Ok(Found::Disk { disk, triple, contacts: Contacts::from_slice(&triple), fixed: true })
+        let contacts = Contacts::from_slice(&triple);
+        Ok(Found::Disk { disk, triple, contacts, own: Some(disk) })
     }
 
     /// Whether a certified disk of three governors touches them within their zones, and nothing else

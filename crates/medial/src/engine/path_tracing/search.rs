@@ -54,8 +54,8 @@ pub(super) enum Found {
     /// In the convex corner at the start of this edge.
     Corner(u32),
     /// At a keypoint: its disk, three sites that define it, and all its governors in
-    /// counterclockwise order; whether the disk is fixed by them, and not by the way it was found.
-    Disk { disk: TouchingDisk, triple: [Site; 3], contacts: Contacts, fixed: bool },
+    /// counterclockwise order; and the disk that doubles find for them alone, if that is known.
+    Disk { disk: TouchingDisk, triple: [Site; 3], contacts: Contacts, own: Option<TouchingDisk> },
     /// At a keypoint that is known already, at its open gap between these governors.
     Known(u32),
 }
@@ -242,7 +242,7 @@ impl<'a> Search<'a> {
         if !self.rounded {
             self.rounded = true;
             self.work.set((0, 0));
-            self.round_off();
+            self.follow_rims();
             return;
         }
         if nodes < NODES * visits {
@@ -258,9 +258,9 @@ impl<'a> Search<'a> {
         self.tree = self.sorted.get_or_init(sort).clone();
     }
 
-    /// Bounds the tree by circles as well.
-    pub fn round_off(&self) {
-        self.tree.round_off(|k| (self.domain.edge(k).start, self.domain.end(k)));
+    /// Measures the edges of the tree by circles near them as well.
+    pub fn follow_rims(&self) {
+        self.tree.follow_rims(|k| (self.domain.edge(k).start, self.domain.end(k)));
     }
 
     /// Takes note of a visit of the tree through that many nodes.
@@ -511,7 +511,7 @@ impl<'a> Search<'a> {
                         best = None;
                         continue;
                     }
-                    return Ok(Found::Disk { disk, triple, contacts, fixed: false });
+                    return Ok(Found::Disk { disk, triple, contacts, own: None });
                 }
             }
         }
@@ -612,8 +612,12 @@ impl<'a> Search<'a> {
 
     /// The disk of three edges relative to a circle near them, if the tree has such circles.
     pub fn pinned(&self, triple: &[Site; 3]) -> Option<Pinned> {
-        let [a, b, c] = triple.map(|s| if s.is_edge() { self.tree.rim(s.index()) } else { None });
-        Pinned::touching([a?, b?, c?])
+        let [a, b, c] = *triple;
+        if !(a.is_edge() && b.is_edge() && c.is_edge()) {
+            return None;
+        }
+        let rim = |s: Site| self.tree.rim(s.index());
+        Pinned::touching([rim(a)?, rim(b)?, rim(c)?])
     }
 
     /// The exact disk of a triple; `None` if there is none, or its radius is zero.

@@ -3,7 +3,7 @@
 //! Ends far away, or not known, are approached by ever larger disks first. What cuts a disk is the
 //! third governor of this one or of one that was passed, and that one is looked into next.
 
-use super::chain::{GROWTH, LEAP, POOR, start_after};
+use super::chain::{GROWTH, LEAP, POOR, POOR_RELATIVE, start_after};
 use super::front::Front;
 use super::nearby::Nearby;
 use super::rings::{Link, Round};
@@ -142,29 +142,32 @@ impl Search<'_> {
             let gap = Gap::new(right, left, here, front);
             let triple = gap.triple(end.site);
             let sought = sought.take();
-            let mut by_form = exact.is_none();
-            let disk = if end.disk.bound.is_finite() {
-                end.disk
+            let mut pinned = None;
+            let (disk, own) = if end.disk.bound.is_finite() {
+                (end.disk, exact.is_none().then_some(end.disk))
             } else {
                 let governors = self.domain.governors(triple);
                 let found = sought.unwrap_or_else(|| TouchingDisk::touching(&governors));
-                let pinned = || self.pinned(&triple).map(|disk| TouchingDisk::from(&disk));
-                match found.map_or_else(pinned, |disk| Some(self.sharper(&triple, disk))) {
-                    Some(disk) if disk.bound <= POOR * disk.radius => {
-                        by_form = found == Some(disk);
-                        disk
-                    }
+                if found.is_none_or(|disk| disk.bound > POOR * disk.radius) {
+                    pinned = self.pinned(&triple);
+                }
+                let sharp = pinned.as_ref().map(TouchingDisk::from);
+                let poor = if sharp.is_some() { POOR_RELATIVE } else { POOR };
+                let disk = match [found, sharp].into_iter().flatten().reduce(sharper) {
+                    Some(disk) if disk.bound <= poor * disk.radius => disk,
                     Some(disk) if found.is_some() => {
                         exact.insert(self.certified(&triple, &disk)).rounded()
                     }
                     _ => exact.insert(self.exact(&triple)?).rounded(),
-                }
+                };
+                (disk, found)
             };
             let start = (&anchor, &self.passed[..]);
             let mut verify = Verify::certified(self, &gap, start, triple, disk, true);
+            verify.pin(pinned);
             verify.run();
             let link = verify.link();
-            by_form &= exact.is_none();
+            let own = own.filter(|_| exact.is_none());
             let verdict = verify.verdict(&mut exact);
             exact = None;
             match verdict {
@@ -186,8 +189,8 @@ impl Search<'_> {
                             return None;
                         }
                     }
-                    let fixed = contacts.len() == 3 && by_form;
-                    return Some(Found::Disk { disk, triple, contacts, fixed });
+                    let own = own.filter(|_| contacts.len() == 3);
+                    return Some(Found::Disk { disk, triple, contacts, own });
                 }
                 Verdict::OffEdge => {
                     self.banned.push(end.site);
@@ -212,17 +215,6 @@ impl Search<'_> {
         }) {
             self.link = (last.right, last.left);
         }
-    }
-
-    /// A disk as it is, or relative to a circle near it where its bound is poor.
-    fn sharper(&self, triple: &[Site; 3], disk: TouchingDisk) -> TouchingDisk {
-        if disk.bound <= POOR * disk.radius {
-            return disk;
-        }
-        self.pinned(triple).map_or(disk, |pinned| {
-            let sharper = TouchingDisk::from(&pinned);
-            if sharper.bound < disk.bound { sharper } else { disk }
-        })
     }
 
     /// The nearest proposal that the boundary makes around an edge that is met beyond its end.
@@ -266,4 +258,9 @@ impl Search<'_> {
         });
         !rings.any(self.domain, links)
     }
+}
+
+/// Of two forms of one disk the one with the smaller bound.
+fn sharper(a: TouchingDisk, b: TouchingDisk) -> TouchingDisk {
+    if b.bound < a.bound { b } else { a }
 }

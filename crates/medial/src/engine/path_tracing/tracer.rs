@@ -195,14 +195,14 @@ impl<'a> Tracer<'a> {
                 self.gaps.close(left, right, |k| k == to);
                 to
             }
-            Found::Disk { disk, triple, contacts, fixed } => {
+            Found::Disk { disk, triple, contacts, own } => {
                 let list = from_least(&contacts);
                 // The path seen from its other end has its governors the other way round.
                 let traced = &self.hand.traced;
                 match self.gaps.close(left, right, |k| traced.has_governors(k, &list)) {
                     Some(to) => to,
                     None => {
-                        let to = self.hand.add_keypoint(&disk, triple, &list, fixed)?;
+                        let to = self.hand.add_keypoint(&disk, triple, &list, own)?;
                         let place = disk.position();
                         self.leave(to, triple, &list, right, left)
                             .ok_or(EngineError::Internal { stage: "closing a path", place })?;

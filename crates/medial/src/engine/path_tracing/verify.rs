@@ -121,6 +121,12 @@ impl<'s, 'a> Verify<'s, 'a> {
         }
     }
 
+    /// The certified disk relative to a circle near it, where that is known already.
+    #[inline]
+    pub fn pin(&mut self, disk: Option<Pinned>) {
+        self.pinned = disk;
+    }
+
     /// Looks for the first proposal within an uncertified disk of the path.
     pub fn hunting(
         search: &'s Search<'a>,
@@ -496,7 +502,7 @@ impl Look for Verify<'_, '_> {
             self.shrink_by_leaf();
         }
         if self.doubtful.len() > CROWD {
-            self.search.round_off();
+            self.search.follow_rims();
         }
     }
 

@@ -254,8 +254,8 @@ impl<'s, 'a> Worker<'s, 'a> {
             self.count(start)?;
             let arrival = self.hand.follow(from, right, left, start, None)?;
             let last = path(arrival.from, ELSEWHERE, arrival.right, arrival.left);
-            let (disk, triple, contacts, fixed) = match arrival.found {
-                Found::Disk { disk, triple, contacts, fixed } => (disk, triple, contacts, fixed),
+            let (disk, triple, contacts, own) = match arrival.found {
+                Found::Disk { disk, triple, contacts, own } => (disk, triple, contacts, own),
                 Found::Known(_) => return Err(broken),
                 Found::Corner(corner) => {
                     if let Some(seed) = large.seeds.number(corner) {
@@ -272,7 +272,7 @@ impl<'s, 'a> Worker<'s, 'a> {
             let next = Start { triple: Some(triple), ..Start::at(&disk) };
             if let [one, other] = openings[..] {
                 // A transition of a path that goes on.
-                from = self.hand.add_keypoint(&disk, triple, &list, fixed)?;
+                from = self.hand.add_keypoint(&disk, triple, &list, own)?;
                 self.hand.set_kind(from, 2);
                 self.hand.traced.add_path(&Path { to: from, ..last });
                 (right, left) = if arrived == 0 { other } else { one };
@@ -287,7 +287,7 @@ impl<'s, 'a> Worker<'s, 'a> {
             break match large.meetings.arrive(&list, n_gaps, gap, place) {
                 Arrived::Known(gap) => End::Gap(gap),
                 Arrived::New(first) => {
-                    let keypoint = self.hand.add_keypoint(&disk, triple, &list, fixed)?;
+                    let keypoint = self.hand.add_keypoint(&disk, triple, &list, own)?;
                     self.hand.set_kind(keypoint, openings.len());
                     self.open(polygon, first, &openings, arrived, next);
                     End::Gap(Gap { number: first.number + gap, ..first })
@@ -360,9 +360,9 @@ impl<'s, 'a> Worker<'s, 'a> {
             let to = match found {
                 Found::Corner(corner) => self.hand.add_end(corner),
                 Found::Known(to) => to,
-                Found::Disk { disk, triple, contacts, fixed } => {
+                Found::Disk { disk, triple, contacts, own } => {
                     let list = from_least(&contacts);
-                    let to = self.hand.add_keypoint(&disk, triple, &list, fixed)?;
+                    let to = self.hand.add_keypoint(&disk, triple, &list, own)?;
                     let openings = openings(self.shared.domain, &list);
                     let arrived = openings.iter().position(|&o| o == (left, right)).ok_or(
                         EngineError::Internal { stage: "closing a path", place: start.centre },
