@@ -2,7 +2,7 @@
 
 mod support;
 
-use medial::axis::{Engine, KeypointKind, MedialAxis, Side};
+use medial::axis::{Curve, Engine, KeypointKind, MedialAxis, Side};
 use medial::domain::{self, Domain};
 use medial::engine::{Options, both_sides, path_tracing};
 use medial::geom::Point;
@@ -12,38 +12,40 @@ use medial::ops::{
 use support::random::{self, Family, Ground, Random};
 use support::shapes;
 
-fn of(text: &str) -> (MedialAxis, Vec<Branch>) {
-    let axis = path_tracing(&shapes::wkt(text)).unwrap();
-    let branches = branches(&axis);
-    (axis, branches)
+fn of(text: &str) -> MedialAxis {
+    path_tracing(&shapes::wkt(text)).unwrap()
 }
 
 /// The primitives of a branch, in the direction from a keypoint.
 fn kinds(
     axis: &MedialAxis,
-    branch: &Branch,
+    branch: &Branch<'_>,
     from: (f64, f64),
 ) -> Vec<(Primitive, Option<Trend>, Bend)> {
     let start = axis.keypoints().at(branch.from()).position;
     assert_eq!(start, Point::new(from.0, from.1));
-    branch.pieces.iter().map(|piece| (piece.primitive, piece.trend, piece.bend)).collect()
+    branch.pieces().map(|piece| (piece.primitive(), piece.trend(), piece.bend())).collect()
 }
 
 #[test]
 fn a_rectangle_has_a_worm_and_four_wedges() {
-    let (axis, branches) = of("POLYGON ((0 0, 6 0, 6 2, 0 2, 0 0))");
+    let axis = of("POLYGON ((0 0, 6 0, 6 2, 0 2, 0 0))");
+    let branches = branches(&axis);
     assert_eq!(branches.len(), 5);
-    for branch in &branches {
+    for branch in branches.iter() {
         let kind = axis.keypoints().at(branch.from()).kind;
-        let piece = &branch.pieces[0];
-        assert_eq!((branch.pieces.len(), piece.bend), (1, Bend::Straight));
+        let piece = branch.pieces().next().unwrap();
+        assert_eq!((branch.pieces().len(), piece.bend()), (1, Bend::Straight));
         if kind == KeypointKind::End {
-            assert_eq!((piece.primitive, piece.trend), (Primitive::Wedge, Some(Trend::Opening)));
-            assert_eq!((branch.extent.area, branch.extent.radius_mean), (1.0, 0.5));
-            assert_eq!((branch.left.length, branch.right.length), (1.0, 1.0));
+            assert_eq!(
+                (piece.primitive(), piece.trend()),
+                (Primitive::Wedge, Some(Trend::Opening))
+            );
+            assert_eq!((branch.extent().area, branch.extent().radius_mean), (1.0, 0.5));
+            assert_eq!(branch.boundary_lengths(), [1.0, 1.0]);
         } else {
-            assert_eq!((piece.primitive, piece.trend), (Primitive::Worm, None));
-            assert_eq!((branch.extent.length, branch.extent.area), (4.0, 8.0));
+            assert_eq!((piece.primitive(), piece.trend()), (Primitive::Worm, None));
+            assert_eq!((branch.extent().length, branch.extent().area), (4.0, 8.0));
         }
     }
 }
@@ -51,17 +53,17 @@ fn a_rectangle_has_a_worm_and_four_wedges() {
 #[test]
 fn a_waist_between_two_corners_closes_and_opens() {
     // Between the corners (4, 1) and (4, 3), with edges that fall away from them: parabolas of their foci.
-    let (axis, branches) = of("POLYGON ((0 0, 4 1, 8 0, 8 4, 4 3, 0 4, 0 0))");
+    let axis = of("POLYGON ((0 0, 4 1, 8 0, 8 4, 4 3, 0 4, 0 0))");
+    let branches = branches(&axis);
     let waist = branches
         .iter()
-        .find(|b| b.extent.radius_min == 1.0 && b.extent.radius_start > 1.0)
+        .find(|b| b.extent().radius_min == 1.0 && b.extent().radius_start > 1.0)
         .unwrap();
     let ends = [waist.from(), waist.to()].map(|k| axis.keypoints().at(k).position);
     assert_eq!((ends[0].y, ends[1].y), (2.0, 2.0));
     let names: Vec<String> = waist
-        .pieces
-        .iter()
-        .map(|p| format!("{} {} {}", p.primitive, p.trend.map_or("", Trend::name), p.bend))
+        .pieces()
+        .map(|p| format!("{} {} {}", p.primitive(), p.trend().map_or("", Trend::name), p.bend()))
         .collect();
     let middle = names.iter().position(|n| n == "flare closing straight").unwrap();
     assert_eq!(names[middle + 1], "flare opening straight");
@@ -70,7 +72,8 @@ fn a_waist_between_two_corners_closes_and_opens() {
     assert_eq!(names.last().unwrap(), "wedge opening straight");
     assert_eq!(names.len(), 4, "{names:?}");
     assert!(
-        (waist.extent.radius_max - waist.extent.radius_start.max(waist.extent.radius_end)).abs()
+        (waist.extent().radius_max - waist.extent().radius_start.max(waist.extent().radius_end))
+            .abs()
             < 1e-12
     );
 }
@@ -78,11 +81,11 @@ fn a_waist_between_two_corners_closes_and_opens() {
 #[test]
 fn a_corner_over_an_edge_makes_spirals() {
     // The corner (4, 2) above the edge y = 0: the axis bends around it, down to its apex and up again.
-    let (axis, branches) = of("POLYGON ((0 0, 8 0, 8 6, 4 2, 0 6, 0 0))");
-    let around =
-        branches.iter().find(|b| b.pieces.iter().any(|p| p.bend != Bend::Straight)).unwrap();
+    let axis = of("POLYGON ((0 0, 8 0, 8 6, 4 2, 0 6, 0 0))");
+    let branches = branches(&axis);
+    let around = branches.iter().find(|b| b.pieces().any(|p| p.bend() != Bend::Straight)).unwrap();
     let from = axis.keypoints().at(around.from()).position;
-    let bends: Vec<_> = kinds(&axis, around, (from.x, from.y))
+    let bends: Vec<_> = kinds(&axis, &around, (from.x, from.y))
         .into_iter()
         .filter(|k| k.2 != Bend::Straight)
         .collect();
@@ -106,59 +109,79 @@ fn a_ring_of_normal_points_is_one_closed_branch() {
         .axis;
     let closed = branches(&pruned);
     assert_eq!(closed.len(), 1);
-    assert!(closed[0].is_closed && closed[0].from() == closed[0].to());
-    assert_eq!(closed[0].paths.len(), pruned.paths().len());
-    assert_eq!(branches(&axis).iter().filter(|b| b.is_closed).count(), 0);
+    let only = closed.iter().next().unwrap();
+    assert!(only.is_closed() && only.from() == only.to());
+    assert_eq!(only.paths().len(), pruned.paths().len());
+    assert_eq!(branches(&axis).iter().filter(Branch::is_closed).count(), 0);
 }
 
 /// Whether all branches add up to the axis and the domain.
 fn faults(domain: &Domain, axis: &MedialAxis) -> Vec<String> {
     let mut faults = Vec::new();
     let all = branches(axis);
-    let mut seen: Vec<u32> = all.iter().flat_map(|b| b.numbers.clone()).collect();
+    let mut seen: Vec<u32> = all.iter().flat_map(|b| b.numbers()).collect();
     seen.sort_unstable();
     if seen != (0..axis.paths().len() as u32).collect::<Vec<_>>() {
         faults.push(format!("paths {seen:?}"));
     }
     let degrees = axis.degrees();
-    for branch in &all {
-        if branch.paths.windows(2).any(|p| p[0].to != p[1].from || degrees[p[0].to as usize] != 2) {
+    for branch in all.iter() {
+        let paths: Vec<_> = branch.paths().collect();
+        if paths.windows(2).any(|p| p[0].to != p[1].from || degrees[p[0].to as usize] != 2) {
             faults.push("a branch does not run through normal points".to_owned());
         }
         let ends = [branch.from(), branch.to()].map(|k| degrees[k as usize]);
-        if !branch.is_closed && ends.contains(&2) {
+        if !branch.is_closed() && ends.contains(&2) {
             faults.push("a branch ends in a normal point".to_owned());
         }
-        let pieces: f64 = branch.pieces.iter().map(|piece| piece.extent.length).sum();
-        let areas: f64 = branch.pieces.iter().map(|piece| piece.extent.area).sum();
+        let lengths: f64 = branch.pieces().map(|piece| piece.extent().length).sum();
+        let areas: f64 = branch.pieces().map(|piece| piece.extent().area).sum();
         let close = |a: f64, b: f64| (a - b).abs() <= 1e-9 * a.abs().max(b.abs()) + 1e-12;
-        if !close(pieces, branch.extent.length) || !close(areas, branch.extent.area) {
+        if !close(lengths, branch.extent().length) || !close(areas, branch.extent().area) {
             faults.push("pieces do not add up".to_owned());
         }
-        for pair in branch.pieces.windows(2) {
-            if pair[0].extent.radius_end != pair[1].extent.radius_start {
+        for (boundary, length) in branch.boundary().iter().zip(branch.boundary_lengths()) {
+            let chords = boundary.points.windows(2).map(|pair| (pair[1] - pair[0]).norm());
+            if !close(chords.sum(), length) || boundary.length != length {
+                faults.push(format!("{boundary:?} is not {length} long"));
+            }
+        }
+        // The curves of the pieces are those of the branch, cut at necks.
+        let radii = |curves: &mut dyn Iterator<Item = Curve>| {
+            curves.flat_map(|c| [c.radius_from(), c.radius_to()]).collect::<Vec<_>>()
+        };
+        let (whole, cut) = (
+            radii(&mut branch.curves()),
+            radii(&mut branch.pieces().flat_map(|piece| piece.curves())),
+        );
+        if (whole.first(), whole.last()) != (cut.first(), cut.last()) {
+            faults.push("the curves of pieces are others".to_owned());
+        }
+        let pieces: Vec<_> = branch.pieces().collect();
+        for pair in pieces.windows(2) {
+            if pair[0].extent().radius_end != pair[1].extent().radius_start {
                 faults.push("pieces do not meet".to_owned());
             }
         }
-        for piece in &branch.pieces {
-            let (start, end) = (piece.extent.radius_start, piece.extent.radius_end);
-            let wrong = match piece.trend {
+        for piece in pieces {
+            let (start, end) = (piece.extent().radius_start, piece.extent().radius_end);
+            let wrong = match piece.trend() {
                 None => (start - end).abs() > 1e-9 * start,
                 Some(Trend::Opening) => start > end * (1.0 + 1e-12),
                 Some(Trend::Closing) => end > start * (1.0 + 1e-12),
             };
             if wrong {
-                faults.push(format!("{:?} from {start} to {end}", piece.trend));
+                faults.push(format!("{:?} from {start} to {end}", piece.trend()));
             }
         }
     }
     if axis.side == Side::Interior {
-        let area: f64 = all.iter().map(|branch| branch.extent.area).sum();
+        let area: f64 = all.iter().map(|branch| branch.extent().area).sum();
         if (area - domain.area()).abs() > 1e-9 * domain.area() {
             faults.push(format!("area {area} of {}", domain.area()));
         }
         // Each edge is passed once, from one end to the other.
-        let length: f64 = all.iter().map(|b| b.left.length + b.right.length).sum();
+        let length: f64 = all.iter().map(|b| b.boundary_lengths().iter().sum::<f64>()).sum();
         let whole: f64 = domain.edges().iter().map(|edge| edge.length).sum();
         if (length - whole).abs() > 1e-9 * whole {
             faults.push(format!("boundary {length} of {whole}"));

@@ -91,13 +91,13 @@ pub fn run(args: &BranchesArgs) -> Result<Status, Failure> {
                 for (number, branch) in branches(&axis).iter().enumerate() {
                     match args.by {
                         Cut::Branch => {
-                            records.push(branch_record(&axis, number, branch, tolerance))
+                            records.push(branch_record(&axis, number, &branch, tolerance))
                         }
                         Cut::Primitive => {
                             let piece = |(k, piece)| {
-                                piece_record(&axis, (number, branch), (k, piece), tolerance)
+                                piece_record(&axis, (number, &branch), (k, &piece), tolerance)
                             };
-                            records.extend(branch.pieces.iter().enumerate().map(piece));
+                            records.extend(branch.pieces().enumerate().map(piece));
                         }
                     }
                 }
@@ -107,7 +107,7 @@ pub fn run(args: &BranchesArgs) -> Result<Status, Failure> {
     })
 }
 
-fn line(curves: &[Curve], tolerance: f64) -> Shape {
+fn line(curves: impl Iterator<Item = Curve>, tolerance: f64) -> Shape {
     let mut points: Vec<Point> = Vec::new();
     for curve in curves {
         let skip = usize::from(!points.is_empty());
@@ -123,51 +123,52 @@ fn extent(extent: &Extent) -> [Value; 7] {
 }
 
 /// What is said of a branch behind its own values.
-fn ends(axis: &MedialAxis, branch: &Branch) -> Vec<Value> {
+fn ends(axis: &MedialAxis, branch: &Branch<'_>) -> Vec<Value> {
     let kind = |keypoint: u32| axis.keypoints().at(keypoint).kind.name();
     let (from, to) = (branch.from(), branch.to());
+    let [left, right] = branch.boundary_lengths();
     vec![
         from.into(),
         to.into(),
         kind(from).into(),
         kind(to).into(),
-        branch.is_closed.into(),
-        branch.left.length.into(),
-        branch.right.length.into(),
+        branch.is_closed().into(),
+        left.into(),
+        right.into(),
     ]
 }
 
-fn branch_record(axis: &MedialAxis, number: usize, branch: &Branch, tolerance: f64) -> Record {
+fn branch_record(axis: &MedialAxis, number: usize, branch: &Branch<'_>, tolerance: f64) -> Record {
     // All of its pieces, one after the other.
-    let joined = |word: fn(&BranchPiece) -> &'static str| {
-        Value::Text(branch.pieces.iter().map(word).collect::<Vec<_>>().join(" "))
+    let joined = |word: fn(&BranchPiece<'_>) -> &'static str| {
+        Value::Text(branch.pieces().map(|piece| word(&piece)).collect::<Vec<_>>().join(" "))
     };
-    let mut values = vec![Value::from(axis.side.name()), number.into(), branch.pieces.len().into()];
-    values.push(joined(|piece| piece.primitive.name()));
-    values.push(joined(|piece| piece.trend.map_or("-", |trend| trend.name())));
-    values.push(joined(|piece| piece.bend.name()));
-    values.extend(extent(&branch.extent));
+    let mut values =
+        vec![Value::from(axis.side.name()), number.into(), branch.pieces().len().into()];
+    values.push(joined(|piece| piece.primitive().name()));
+    values.push(joined(|piece| piece.trend().map_or("-", |trend| trend.name())));
+    values.push(joined(|piece| piece.bend().name()));
+    values.extend(extent(&branch.extent()));
     values.extend(ends(axis, branch));
-    let curves: Vec<Curve> = branch.paths.iter().map(|path| axis.curve(path)).collect();
-    Record { values, shape: line(&curves, tolerance) }
+    Record { values, shape: line(branch.curves(), tolerance) }
 }
 
 fn piece_record(
     axis: &MedialAxis,
-    (number, branch): (usize, &Branch),
-    (k, piece): (usize, &BranchPiece),
+    (number, branch): (usize, &Branch<'_>),
+    (k, piece): (usize, &BranchPiece<'_>),
     tolerance: f64,
 ) -> Record {
     let mut values = vec![Value::from(axis.side.name()), number.into(), k.into()];
-    values.push(piece.primitive.name().into());
-    values.push(piece.trend.map_or(Value::None, |trend| trend.name().into()));
-    values.push(piece.bend.name().into());
-    values.extend(extent(&piece.extent));
+    values.push(piece.primitive().name().into());
+    values.push(piece.trend().map_or(Value::None, |trend| trend.name().into()));
+    values.push(piece.bend().name().into());
+    values.extend(extent(&piece.extent()));
     values.extend(ends(axis, branch));
     // The boundary is that of the branch.
     let n = values.len();
     values[n - 2..].fill(Value::None);
-    Record { values, shape: line(&piece.curves, tolerance) }
+    Record { values, shape: line(piece.curves(), tolerance) }
 }
 
 /// The axes of both sides.
@@ -204,7 +205,7 @@ fn limb_record(number: usize, limb: &Limb, tolerance: f64) -> Record {
     values.extend(
         numbers.into_iter().chain([direction.x, direction.y, tip.x, tip.y]).map(Value::from),
     );
-    Record { values, shape: line(&limb.curves, tolerance) }
+    Record { values, shape: line(limb.curves.iter().copied(), tolerance) }
 }
 
 /// Limbs of a feature, by its number.

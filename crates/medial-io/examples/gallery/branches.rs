@@ -30,13 +30,13 @@ fn draw() -> Fallible<String> {
     let mut sheet = Sheet::new(2, (300.0, 360.0));
     let mut panel = sheet.panel(window, "primitives");
     panel.domain(domain);
-    for piece in branches(&pruned).iter().flat_map(|branch| &branch.pieces) {
-        let style = match (piece.primitive, piece.trend) {
+    for piece in branches(&pruned).iter().flat_map(|branch| branch.pieces()) {
+        let style = match (piece.primitive(), piece.trend()) {
             (Primitive::Flare, Some(Trend::Opening)) => OPENING,
             (Primitive::Flare, _) => CLOSING,
             _ => WEDGE,
         };
-        panel.curves(&piece.curves, style);
+        panel.curves(&piece.curves().collect::<Vec<_>>(), style);
     }
     let mut panel = sheet.panel(window, "peninsulas and bays");
     panel.domain(domain);

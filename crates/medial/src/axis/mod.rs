@@ -22,5 +22,5 @@ pub use names::UnknownName;
 pub(crate) use names::names;
 pub(crate) use paths::PathTable;
 pub use paths::{Paths, PathsIter};
-pub(crate) use sites::SiteTable;
+pub(crate) use sites::{SiteShape, SiteTable};
 pub use sites::{Sites, SitesIter};

@@ -15,11 +15,11 @@
 //! The paper allows axes of any curvature. Those of polygons are straight, or spirals: a parabola bends
 //! most at its apex. Circular axes do not occur.
 
-use smallvec::SmallVec;
+use std::fmt;
 
 use super::groups::Groups;
-use super::outline::foot;
-use crate::axis::{Curve, MedialAxis, Path, Site, SiteKind, names};
+use super::outline::foot_on;
+use crate::axis::{Curve, MedialAxis, Path, SiteKind, SiteShape, names};
 use crate::geom::{Point, cross_directions};
 
 /// What the radius does along a piece of a branch.
@@ -79,38 +79,51 @@ names!(
     SpiralOutLeft => "spiral_out_left", SpiralOutRight => "spiral_out_right",
 );
 
+/// The branches of an axis, what is said of each in a few tables.
+#[derive(Clone)]
+pub struct Branches<'a> {
+    axis: &'a MedialAxis,
+    /// The paths along all branches: path `k` in its own direction as `2k`, against it as `2k + 1`.
+    passed: Vec<u32>,
+    pieces: Vec<PieceRecord>,
+    records: Vec<BranchRecord>,
+}
+
+#[derive(Clone, Copy)]
+struct BranchRecord {
+    /// Where it starts in the other tables.
+    passed: u32,
+    pieces: u32,
+    is_closed: bool,
+    extent: Extent,
+    /// The lengths of the boundary to its left and to its right.
+    boundary: [f64; 2],
+}
+
+#[derive(Clone, Copy)]
+struct PieceRecord {
+    kind: Kind,
+    extent: Extent,
+    /// The paths passed, the first and the last one, and whether it starts, or ends, at their necks.
+    passed: [u32; 2],
+    at_neck: [bool; 2],
+}
+
+type Kind = (Primitive, Option<Trend>, Bend);
+
 /// A way through an axis between two points that are no normal points, or around a cycle of normal points.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Branch {
-    /// The paths, in the direction of the branch.
-    pub paths: Vec<Path>,
-    /// Their numbers in the axis.
-    pub numbers: Vec<u32>,
-    /// What it consists of, in its direction.
-    pub pieces: Vec<BranchPiece>,
-    /// All of it.
-    pub extent: Extent,
-    /// The boundary to its left, from where it starts.
-    pub left: BoundaryPiece,
-    /// The boundary to its right, from where it starts.
-    pub right: BoundaryPiece,
-    /// Whether it is a cycle of normal points.
-    pub is_closed: bool,
+#[derive(Clone, Copy)]
+pub struct Branch<'a> {
+    all: &'a Branches<'a>,
+    number: usize,
 }
 
 /// A piece of a branch with one primitive.
-#[derive(Clone, Debug, PartialEq)]
-pub struct BranchPiece {
-    /// What the radius does.
-    pub primitive: Primitive,
-    /// Whether it grows; nothing for a worm.
-    pub trend: Option<Trend>,
-    /// How the axis bends.
-    pub bend: Bend,
-    /// The curves, in the direction of the branch.
-    pub curves: Vec<Curve>,
-    /// All of it.
-    pub extent: Extent,
+#[derive(Clone, Copy)]
+pub struct BranchPiece<'a> {
+    axis: &'a MedialAxis,
+    passed: &'a [u32],
+    record: &'a PieceRecord,
 }
 
 /// Lengths, areas and radii of a part of an axis, in units of the input.
@@ -146,7 +159,7 @@ pub struct BoundaryPiece {
 /// The branches of an axis: each path is in just one of them.
 ///
 /// Those with a free end come first and start there, closed ones come last. Of an axis that was pruned a
-/// boundary goes straight past what was removed.
+/// boundary goes straight past what was removed. Takes O(n) for n paths.
 ///
 /// ```
 /// use medial::domain::{Domain, Options};
@@ -160,40 +173,47 @@ pub struct BoundaryPiece {
 /// let branches = branches(&axis);
 /// // Four corners and the spine.
 /// assert_eq!(branches.len(), 5);
-/// let spine = branches.iter().find(|b| b.pieces[0].primitive == Primitive::Worm).unwrap();
-/// assert_eq!((spine.extent.length, spine.extent.area, spine.left.length), (4.0, 8.0, 4.0));
+/// let is_worm = |primitive| primitive == Primitive::Worm;
+/// let spine = branches.iter().find(|b| b.pieces().all(|piece| is_worm(piece.primitive()))).unwrap();
+/// assert_eq!((spine.extent().length, spine.extent().area), (4.0, 8.0));
+/// assert_eq!(spine.boundary_lengths(), [4.0, 4.0]);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[must_use]
-pub fn branches(axis: &MedialAxis) -> Vec<Branch> {
+pub fn branches(axis: &MedialAxis) -> Branches<'_> {
     let incidence = Groups::paths_at_keypoints(axis);
-    let mut is_used = vec![false; axis.paths().len()];
-    let mut branches = Vec::new();
-    let n = axis.keypoints().len() as u32;
-    let is_normal = |keypoint: u32| incidence.of(keypoint).len() == 2;
+    let n_paths = axis.paths().len();
+    let mut branches = Branches {
+        axis,
+        passed: Vec::with_capacity(n_paths),
+        pieces: Vec::with_capacity(n_paths),
+        records: Vec::new(),
+    };
+    let mut is_used = vec![false; n_paths];
     let mut follow = |start: u32, number: u32, is_closed: bool| {
         if is_used[number as usize] {
             return;
         }
-        let (mut paths, mut numbers) = (Vec::new(), Vec::new());
+        let mut open = branches.begin(is_closed);
         let (mut keypoint, mut number) = (start, number);
         loop {
             is_used[number as usize] = true;
             let path = axis.paths().at(number);
             // A loop at one keypoint is passed from its start.
-            let path = if path.from == keypoint { path } else { path.reversed() };
-            paths.push(path);
-            numbers.push(number);
+            let forwards = path.from == keypoint;
+            let path = if forwards { path } else { path.reversed() };
+            branches.pass(&mut open, 2 * number + u32::from(!forwards), &path);
             keypoint = path.to;
-            if !is_normal(keypoint) {
+            let around = incidence.of(keypoint);
+            if around.len() != 2 {
                 break;
             }
-            let next = incidence.of(keypoint).iter().find(|&&k| !is_used[k as usize]);
-            let Some(&next) = next else { break };
+            let Some(&next) = around.iter().find(|&&k| !is_used[k as usize]) else { break };
             number = next;
         }
-        branches.push(Branch::of(axis, paths, numbers, is_closed));
+        branches.finish(open);
     };
+    let n = axis.keypoints().len() as u32;
     let degree = |keypoint: u32| incidence.of(keypoint).len();
     let leaves = (0..n).filter(|&k| degree(k) == 1);
     let junctions = (0..n).filter(|&k| degree(k) > 2);
@@ -202,78 +222,288 @@ pub fn branches(axis: &MedialAxis) -> Vec<Branch> {
             follow(keypoint, number, false);
         }
     }
-    for keypoint in (0..n).filter(|&k| is_normal(k)) {
+    for keypoint in (0..n).filter(|&k| degree(k) == 2) {
         follow(keypoint, incidence.of(keypoint)[0], true);
     }
     branches
 }
 
-impl Branch {
+/// A branch that is not at its end yet.
+struct Open {
+    record: BranchRecord,
+    sum: Sum,
+    piece: Sum,
+    banks: [Bank; 2],
+}
+
+/// The boundary on one side of a branch so far: its last site, and the last of its points.
+#[derive(Clone, Copy)]
+struct Bank {
+    site: u32,
+    last: Point,
+    to: Point,
+    length: f64,
+}
+
+/// No site.
+const NONE: u32 = u32::MAX;
+
+impl<'a> Branches<'a> {
+    /// How many there are.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.records.len()
+    }
+
+    /// Whether there are none.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.records.is_empty()
+    }
+
+    /// All of them, in their order.
+    pub fn iter(&self) -> impl ExactSizeIterator<Item = Branch<'_>> + DoubleEndedIterator {
+        (0..self.records.len()).map(|number| Branch { all: self, number })
+    }
+
+    fn begin(&self, is_closed: bool) -> Open {
+        let (passed, pieces) = (self.passed.len() as u32, self.pieces.len() as u32);
+        let bank = Bank { site: NONE, last: Point::default(), to: Point::default(), length: 0.0 };
+        let (extent, boundary) = (Extent::NOTHING, [0.0; 2]);
+        Open {
+            record: BranchRecord { passed, pieces, is_closed, extent, boundary },
+            sum: Sum::default(),
+            piece: Sum::default(),
+            banks: [bank; 2],
+        }
+    }
+
+    /// Adds a path at the end of the branch that is open.
+    fn pass(&mut self, open: &mut Open, number: u32, path: &Path) {
+        let axis = self.axis;
+        let sites = [path.left, path.right].map(|site| axis.site_shape(site));
+        let ends = [path.from, path.to].map(|keypoint| axis.keypoints().at(keypoint));
+        let disks = ends.map(|end| (end.position, end.radius));
+        let curve = Curve::between(&sites[0], &sites[1], disks[0], disks[1]);
+        for ((bank, site), number) in open.banks.iter_mut().zip(&sites).zip([path.left, path.right])
+        {
+            bank.pass(number, site, disks[0].0, disks[1].0);
+        }
+        let place = self.passed.len() as u32;
+        self.passed.push(number);
+        match curve.neck() {
+            None => {
+                let kind = kind(&sites, &curve, None);
+                self.add(open, kind, place, [false; 2], &curve);
+            }
+            // On one side of the neck it closes, on the other it opens.
+            Some(neck) => {
+                let (first, second) = (curve.piece(0.0, neck), curve.piece(neck, 1.0));
+                let of = |curve, trend| kind(&sites, curve, Some(trend));
+                let (closing, opening) = (of(&first, Trend::Closing), of(&second, Trend::Opening));
+                self.add(open, closing, place, [false, true], &first);
+                self.add(open, opening, place, [true, false], &second);
+            }
+        }
+    }
+
+    /// Adds a curve on which the radius is monotone.
+    fn add(&mut self, open: &mut Open, kind: Kind, place: u32, at_neck: [bool; 2], curve: &Curve) {
+        let extent = Extent::of(curve);
+        open.sum.add(&extent);
+        let goes_on = self.pieces.len() > open.record.pieces as usize;
+        if let Some(last) = self.pieces.last_mut().filter(|last| goes_on && last.kind == kind) {
+            open.piece.add(&extent);
+            (last.passed[1], last.at_neck[1]) = (place, at_neck[1]);
+            last.extent = open.piece.extent();
+            return;
+        }
+        open.piece = Sum::default();
+        open.piece.add(&extent);
+        self.pieces.push(PieceRecord { kind, extent, passed: [place; 2], at_neck });
+    }
+
+    fn finish(&mut self, open: Open) {
+        let Open { record, sum, banks, .. } = open;
+        let boundary = banks.map(|bank| bank.length + (bank.to - bank.last).norm());
+        self.records.push(BranchRecord { extent: sum.extent(), boundary, ..record });
+    }
+
+    fn path(&self, passed: u32) -> Path {
+        let path = self.axis.paths().at(passed / 2);
+        if passed.is_multiple_of(2) { path } else { path.reversed() }
+    }
+}
+
+impl Bank {
+    /// Goes on along a site, between the footpoints of two points.
+    fn pass(&mut self, number: u32, site: &SiteShape, from: Point, to: Point) {
+        if number != self.site {
+            let first = foot_on(site.a, site.b, from);
+            if self.site != NONE {
+                self.length += (first - self.last).norm();
+            }
+            (self.site, self.last) = (number, first);
+        }
+        self.to = foot_on(site.a, site.b, to);
+    }
+}
+
+impl<'a> Branch<'a> {
+    fn record(&self) -> &'a BranchRecord {
+        &self.all.records[self.number]
+    }
+
+    fn passed(&self) -> &'a [u32] {
+        let next = self.all.records.get(self.number + 1);
+        let end = next.map_or(self.all.passed.len(), |next| next.passed as usize);
+        &self.all.passed[self.record().passed as usize..end]
+    }
+
+    /// The paths, in the direction of the branch.
+    pub fn paths(&self) -> impl ExactSizeIterator<Item = Path> + DoubleEndedIterator + use<'a> {
+        let all = self.all;
+        self.passed().iter().map(|&passed| all.path(passed))
+    }
+
+    /// Their numbers in the axis.
+    pub fn numbers(&self) -> impl ExactSizeIterator<Item = u32> + DoubleEndedIterator + use<'a> {
+        self.passed().iter().map(|&passed| passed / 2)
+    }
+
+    /// Their curves, in the direction of the branch.
+    pub fn curves(&self) -> impl ExactSizeIterator<Item = Curve> + DoubleEndedIterator + use<'a> {
+        let axis = self.all.axis;
+        self.paths().map(|path| axis.curve(&path))
+    }
+
+    /// What it consists of, in its direction.
+    pub fn pieces(
+        &self,
+    ) -> impl ExactSizeIterator<Item = BranchPiece<'a>> + DoubleEndedIterator + use<'a> {
+        let next = self.all.records.get(self.number + 1);
+        let end = next.map_or(self.all.pieces.len(), |next| next.pieces as usize);
+        let records = &self.all.pieces[self.record().pieces as usize..end];
+        let (axis, passed) = (self.all.axis, &self.all.passed[..]);
+        records.iter().map(move |record| BranchPiece { axis, passed, record })
+    }
+
+    /// Lengths, areas and radii of all of it.
+    #[must_use]
+    pub fn extent(&self) -> Extent {
+        self.record().extent
+    }
+
+    /// The lengths of the boundary to its left and to its right, in units of the input.
+    #[must_use]
+    pub fn boundary_lengths(&self) -> [f64; 2] {
+        self.record().boundary
+    }
+
+    /// The boundary to its left and to its right, from where it starts.
+    #[must_use]
+    pub fn boundary(&self) -> [BoundaryPiece; 2] {
+        let [left, right] = self.boundary_lengths();
+        let beside = |governor: fn(&Path) -> u32, length| {
+            BoundaryPiece::beside(self.all.axis, self.paths(), governor, length)
+        };
+        [beside(|path| path.left, left), beside(|path| path.right, right)]
+    }
+
+    /// Whether it is a cycle of normal points.
+    #[must_use]
+    pub fn is_closed(&self) -> bool {
+        self.record().is_closed
+    }
+
     /// Keypoint where it starts.
     #[must_use]
     pub fn from(&self) -> u32 {
-        self.paths.first().map_or(0, |path| path.from)
+        self.paths().next().map_or(0, |path| path.from)
     }
 
     /// Keypoint where it ends.
     #[must_use]
     pub fn to(&self) -> u32 {
-        self.paths.last().map_or(0, |path| path.to)
-    }
-
-    fn of(axis: &MedialAxis, paths: Vec<Path>, numbers: Vec<u32>, is_closed: bool) -> Self {
-        let mut pieces: Vec<BranchPiece> = Vec::new();
-        for path in &paths {
-            let sites = [path.left, path.right].map(|site| axis.sites().at(site));
-            let curve = axis.curve(path);
-            // On one side of the neck it closes, on the other it opens.
-            let parts = match curve.neck() {
-                Some(neck) => vec![curve.piece(0.0, neck), curve.piece(neck, 1.0)],
-                None => vec![curve],
-            };
-            let count = parts.len();
-            for (k, part) in parts.into_iter().enumerate() {
-                let trend = match (count, k) {
-                    (2, 0) => Some(Trend::Closing),
-                    (2, _) => Some(Trend::Opening),
-                    _ => None,
-                };
-                let (primitive, trend, bend) = kind(&sites, &part, trend);
-                match pieces.last_mut() {
-                    Some(last) if last.kind() == (primitive, trend, bend) => {
-                        last.curves.push(part);
-                    }
-                    _ => {
-                        let (curves, extent) = (vec![part], Extent::NOTHING);
-                        pieces.push(BranchPiece { primitive, trend, bend, curves, extent });
-                    }
-                }
-            }
-        }
-        for piece in &mut pieces {
-            let parts: SmallVec<[Extent; 4]> = piece.curves.iter().map(Extent::of).collect();
-            piece.extent = Extent::joined(&parts);
-        }
-        let parts: SmallVec<[Extent; 4]> = pieces.iter().map(|piece| piece.extent).collect();
-        let extent = Extent::joined(&parts);
-        let left = BoundaryPiece::beside(axis, &paths, |path| path.left);
-        let right = BoundaryPiece::beside(axis, &paths, |path| path.right);
-        Self { paths, numbers, pieces, extent, left, right, is_closed }
+        self.paths().next_back().map_or(0, |path| path.to)
     }
 }
 
-impl BranchPiece {
-    fn kind(&self) -> (Primitive, Option<Trend>, Bend) {
-        (self.primitive, self.trend, self.bend)
+impl<'a> BranchPiece<'a> {
+    /// What the radius does.
+    #[must_use]
+    pub fn primitive(&self) -> Primitive {
+        self.record.kind.0
+    }
+
+    /// Whether it grows; nothing for a worm.
+    #[must_use]
+    pub fn trend(&self) -> Option<Trend> {
+        self.record.kind.1
+    }
+
+    /// How the axis bends.
+    #[must_use]
+    pub fn bend(&self) -> Bend {
+        self.record.kind.2
+    }
+
+    /// Lengths, areas and radii of all of it.
+    #[must_use]
+    pub fn extent(&self) -> Extent {
+        self.record.extent
+    }
+
+    /// The curves, in the direction of the branch.
+    pub fn curves(&self) -> impl ExactSizeIterator<Item = Curve> + use<'a> {
+        let PieceRecord { passed: [first, last], at_neck: [from_neck, to_neck], .. } = *self.record;
+        let axis = self.axis;
+        let passed = &self.passed[first as usize..=last as usize];
+        let count = passed.len();
+        passed.iter().enumerate().map(move |(k, &passed)| {
+            let path = axis.paths().at(passed / 2);
+            let path = if passed.is_multiple_of(2) { path } else { path.reversed() };
+            let curve = axis.curve(&path);
+            let neck = curve.neck();
+            let low = neck.filter(|_| from_neck && k == 0).unwrap_or(0.0);
+            let high = neck.filter(|_| to_neck && k + 1 == count).unwrap_or(1.0);
+            if (low, high) == (0.0, 1.0) { curve } else { curve.piece(low, high) }
+        })
+    }
+}
+
+impl fmt::Debug for Branches<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_list().entries(self.iter()).finish()
+    }
+}
+
+impl fmt::Debug for Branch<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Branch")
+            .field("numbers", &self.numbers().collect::<Vec<_>>())
+            .field("pieces", &self.pieces().collect::<Vec<_>>())
+            .field("extent", &self.extent())
+            .field("boundary_lengths", &self.boundary_lengths())
+            .field("is_closed", &self.is_closed())
+            .finish()
+    }
+}
+
+impl fmt::Debug for BranchPiece<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (primitive, trend, bend) = self.record.kind;
+        f.debug_struct("BranchPiece")
+            .field("primitive", &primitive)
+            .field("trend", &trend)
+            .field("bend", &bend)
+            .field("extent", &self.extent())
+            .finish()
     }
 }
 
 /// The primitive of a curve with these governors, left and right, on which the radius is monotone.
-fn kind(
-    sites: &[Site; 2],
-    curve: &Curve,
-    trend: Option<Trend>,
-) -> (Primitive, Option<Trend>, Bend) {
+fn kind(sites: &[SiteShape; 2], curve: &Curve, trend: Option<Trend>) -> Kind {
     let trend_of = |opens: bool| if opens { Trend::Opening } else { Trend::Closing };
     let [left, right] = sites;
     if left.kind == SiteKind::Edge && right.kind == SiteKind::Edge {
@@ -308,58 +538,86 @@ impl Extent {
         radius_mean: 0.0,
     };
 
-    /// That of parts that follow one another.
-    fn joined(parts: &[Self]) -> Self {
-        let (Some(first), Some(last)) = (parts.first(), parts.last()) else {
-            return Self::NOTHING;
-        };
-        let length: f64 = parts.iter().map(|e| e.length).sum();
-        let radius_max = parts.iter().map(|e| e.radius_max).fold(0.0, f64::max);
-        let radius_min = parts.iter().map(|e| e.radius_min).fold(radius_max, f64::min);
-        let sum: f64 = parts.iter().map(|e| e.length * e.radius_mean).sum();
-        let mean = if length > 0.0 { sum / length } else { radius_max };
+    fn of(curve: &Curve) -> Self {
+        let (length, radius_mean) = curve.length_and_mean();
         Self {
             length,
-            area: parts.iter().map(|e| e.area).sum(),
-            radius_start: first.radius_start,
-            radius_end: last.radius_end,
-            radius_min,
-            radius_max,
-            radius_mean: mean.clamp(radius_min, radius_max),
-        }
-    }
-
-    fn of(curve: &Curve) -> Self {
-        Self {
-            length: curve.length(),
             area: curve.strip_area(),
             radius_start: curve.radius_from(),
             radius_end: curve.radius_to(),
             radius_min: curve.radius_min(),
             radius_max: curve.radius_max(),
-            radius_mean: curve.radius_mean(),
+            radius_mean,
+        }
+    }
+}
+
+/// The extents of parts that follow one another.
+#[derive(Clone, Copy, Default)]
+struct Sum {
+    length: f64,
+    area: f64,
+    /// The radius summed along the length.
+    moment: f64,
+    /// The radius where the first starts, and where the last ends; the least, the greatest.
+    ends: Option<[f64; 2]>,
+    least: f64,
+    greatest: f64,
+}
+
+impl Sum {
+    fn add(&mut self, next: &Extent) {
+        self.length += next.length;
+        self.area += next.area;
+        self.moment += next.length * next.radius_mean;
+        let is_first = self.ends.is_none();
+        self.ends = Some([self.ends.map_or(next.radius_start, |ends| ends[0]), next.radius_end]);
+        self.least = if is_first { next.radius_min } else { self.least.min(next.radius_min) };
+        self.greatest = self.greatest.max(next.radius_max);
+    }
+
+    fn extent(&self) -> Extent {
+        let Self { length, area, moment, least, greatest, .. } = *self;
+        let Some([radius_start, radius_end]) = self.ends else { return Extent::NOTHING };
+        let mean = if length > 0.0 { moment / length } else { greatest };
+        let radius_mean = mean.clamp(least, greatest);
+        Extent {
+            length,
+            area,
+            radius_start,
+            radius_end,
+            radius_min: least,
+            radius_max: greatest,
+            radius_mean,
         }
     }
 }
 
 impl BoundaryPiece {
     /// The boundary on one side of paths that follow one another.
-    fn beside(axis: &MedialAxis, paths: &[Path], governor: impl Fn(&Path) -> u32) -> Self {
-        let mut piece = Self { points: Vec::new(), sites: Vec::new(), length: 0.0 };
+    fn beside(
+        axis: &MedialAxis,
+        paths: impl Iterator<Item = Path>,
+        governor: impl Fn(&Path) -> u32,
+        length: f64,
+    ) -> Self {
+        let mut piece = Self { points: Vec::new(), sites: Vec::new(), length };
         let foot_at = |site: u32, keypoint: u32| {
-            foot(&axis.sites().at(site), axis.keypoints().at(keypoint).position)
+            let SiteShape { a, b, .. } = axis.site_shape(site);
+            foot_on(a, b, axis.keypoints().at(keypoint).position)
         };
+        let mut last = None;
         for path in paths {
-            let site = governor(path);
+            let site = governor(&path);
             if piece.sites.last() != Some(&site) {
                 piece.sites.push(site);
                 piece.push(foot_at(site, path.from));
             }
+            last = Some((site, path.to));
         }
-        if let Some(last) = paths.last() {
-            piece.push(foot_at(governor(last), last.to));
+        if let Some((site, to)) = last {
+            piece.push(foot_at(site, to));
         }
-        piece.length = piece.points.windows(2).map(|pair| (pair[1] - pair[0]).norm()).sum();
         piece
     }
 

@@ -16,7 +16,7 @@
 //! The report leaves the search open. What is compared here is width, not bending: a pair is a proposal
 //! for a placement, which a nesting program has to try.
 
-use super::branches::{Branch, branches};
+use super::branches::branches;
 use super::hierarchy::{Hierarchy, HierarchyError};
 use super::measure::Measure;
 use crate::axis::{Curve, KeypointKind, MedialAxis, Side, bisected};
@@ -183,16 +183,16 @@ pub fn limbs(
     let bounds = hull.iter().fold(Rect::EMPTY, |all, &p| all.with(p));
     let tolerance = 1e-4 * (bounds.max - bounds.min).norm();
     let mut limbs = Vec::new();
-    for branch in branches(&pruned) {
+    for branch in branches(&pruned).iter() {
         let ends = [is_free(branch.from()), is_free(branch.to())];
         let ways: Vec<Vec<Curve>> = match ends {
             [true, true] => {
-                let [first, last] =
-                    halves(&curves_of(&pruned, &branch), 0.5 * branch.extent.length);
-                vec![reversed(&first), last]
+                let curves: Vec<Curve> = branch.curves().collect();
+                let [first, last] = halves(&curves, 0.5 * branch.extent().length);
+                vec![reversed(first.into_iter()), last]
             }
-            [true, false] => vec![reversed(&curves_of(&pruned, &branch))],
-            [false, true] => vec![curves_of(&pruned, &branch)],
+            [true, false] => vec![reversed(branch.curves())],
+            [false, true] => vec![branch.curves().collect()],
             [false, false] => continue,
         };
         for way in ways {
@@ -244,12 +244,8 @@ fn gap(inner: &Limb, outer: &Limb) -> Option<f64> {
         .find(|&g| fits(g))
 }
 
-fn curves_of(axis: &MedialAxis, branch: &Branch) -> Vec<Curve> {
-    branch.paths.iter().map(|path| axis.curve(path)).collect()
-}
-
-fn reversed(curves: &[Curve]) -> Vec<Curve> {
-    curves.iter().rev().map(Curve::reversed).collect()
+fn reversed(curves: impl DoubleEndedIterator<Item = Curve>) -> Vec<Curve> {
+    curves.rev().map(|curve| curve.reversed()).collect()
 }
 
 /// The part of a way up to a length, and the rest.

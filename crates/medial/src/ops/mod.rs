@@ -20,7 +20,9 @@ mod scale;
 mod smooth;
 mod voronoi;
 
-pub use branches::{Bend, BoundaryPiece, Branch, BranchPiece, Extent, Primitive, Trend, branches};
+pub use branches::{
+    Bend, BoundaryPiece, Branch, BranchPiece, Branches, Extent, Primitive, Trend, branches,
+};
 pub use centerline::{
     Centerline, CenterlineError, CenterlineOptions, Extension, LineOptions, Route, Widths,
     centerlines, polylines,
