@@ -182,6 +182,12 @@ impl MedialAxis {
         self.sites.shape(site)
     }
 
+    /// A table of those sites whose number is not `u32::MAX`; each gets its number there. `None` if they have
+    /// too many end points.
+    pub(crate) fn sites_among(&self, numbers: &mut [u32]) -> Option<SiteTable> {
+        self.sites.among(numbers)
+    }
+
     /// All keypoints.
     #[must_use]
     pub fn keypoints(&self) -> Keypoints<'_> {

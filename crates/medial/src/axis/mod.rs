@@ -11,7 +11,7 @@ mod sites;
 mod views;
 
 pub use curve::Curve;
-pub(crate) use curve::bisected;
+pub(crate) use curve::{bisected, crossing};
 pub use draw::CurveKind;
 pub(crate) use keypoints::KeypointTable;
 pub use keypoints::{Keypoints, KeypointsIter};

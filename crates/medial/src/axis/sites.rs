@@ -144,6 +144,29 @@ impl SiteTable {
         self.points.len() as u32 - 1
     }
 
+    /// The sites that have a number other than the largest, which is set to that in the new table; `None`
+    /// if they have too many end points.
+    pub fn among(&self, numbers: &mut [u32]) -> Option<Self> {
+        let (n, walks) = (self.records.len(), self.runs.len());
+        let mut table = Self::with_room(n, self.points.len(), walks);
+        let mut runs = self.runs.iter().peekable();
+        let (mut polygon, mut ring) = (0, 0);
+        for (number, new) in (0..).zip(numbers) {
+            if let Some(run) = runs.next_if(|run| run.first == number) {
+                (polygon, ring) = (run.polygon, run.ring);
+            }
+            if *new == u32::MAX {
+                continue;
+            }
+            let (SiteShape { kind, a, b }, part) = self.shape_and_part(number);
+            let index = self.records[number as usize].index;
+            *new = table.len();
+            table.put(&Site { kind, polygon, ring, index, part, a, b })?;
+        }
+        table.shrink();
+        Some(table)
+    }
+
     /// Gives back the room that was not needed.
     pub fn shrink(&mut self) {
         self.points.shrink_to_fit();

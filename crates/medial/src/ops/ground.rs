@@ -1,6 +1,6 @@
 //! One side of the boundary: a domain with that side to the left of its edges.
 
-use crate::axis::{self, MedialAxis, Side};
+use crate::axis::{self, MedialAxis, Side, SiteKind};
 use crate::check::Name;
 use crate::domain::{Complement, Corner, Domain, Site, Walk};
 use crate::geom::Rect;
@@ -51,9 +51,14 @@ impl<'a> Ground<'a> {
     /// All edges and corners but those of the walls, along the boundary of the polygons.
     pub fn elements(&self) -> Vec<Site> {
         let all = (0..2 * self.domain().edges().len() as u32).map(Site);
-        let mut all: Vec<Site> = all.filter(|&site| self.place(site).is_some()).collect();
-        all.sort_by_key(|&site| self.place(site));
-        all
+        match self {
+            Self::Inside(_) => all.collect(),
+            Self::Outside(_) => {
+                let mut all: Vec<Site> = all.filter(|&site| self.place(site).is_some()).collect();
+                all.sort_by_key(|&site| self.place(site));
+                all
+            }
+        }
     }
 
     /// The element behind each site of an axis, found by its name and its coordinates.
@@ -68,7 +73,8 @@ impl<'a> Ground<'a> {
         let governor = |site: axis::Site| {
             /// Corners without a cell between two that have one, mostly.
             const NEAR: usize = 4;
-            let ahead = elements[next..].iter().take(NEAR).position(|&e| self.named(e) == site);
+            let is_same = |&e: &Site| self.is_named(e, &site);
+            let ahead = elements[next..].iter().take(NEAR).position(is_same);
             if let Some(ahead) = ahead {
                 next += ahead + 1;
                 return Ok(elements[next - 1]);
@@ -82,7 +88,7 @@ impl<'a> Ground<'a> {
             let axis::Site { kind, polygon, ring, index, part, .. } = site;
             let name = Name { kind, polygon, ring, index, part };
             let found = names.binary_search_by(|(known, _)| known.cmp(&name));
-            let found = found.ok().map(|k| names[k].1).filter(|&e| self.named(e) == site);
+            let found = found.ok().map(|k| names[k].1).filter(|&e| self.is_named(e, &site));
             let element = found.ok_or(name)?;
             // What follows lies behind it, if anywhere.
             let at = elements.partition_point(|&e| self.place(e) <= self.place(element));
@@ -103,6 +109,18 @@ impl<'a> Ground<'a> {
     /// Whether an element has a cell on this side.
     pub fn has_cell(&self, site: Site) -> bool {
         site.is_edge() || self.domain().edge(site.index()).corner == Corner::Reflex
+    }
+
+    /// Whether an axis lists an element so.
+    fn is_named(&self, element: Site, site: &axis::Site) -> bool {
+        // The name takes longest.
+        let edge = self.domain().edge(element.index());
+        let is_edge = site.kind == SiteKind::Edge;
+        let start = match self {
+            Self::Inside(_) => site.a,
+            Self::Outside(_) => site.b,
+        };
+        element.is_edge() == is_edge && edge.start == start && self.named(element) == *site
     }
 
     /// An element as an axis lists it.

@@ -31,7 +31,7 @@ use super::ground::Ground;
 use super::measure::Measure;
 use super::rest::{Pruned, Rest};
 use super::scale::Swallowing;
-use crate::axis::{Accuracy, Curve, KeypointKind, MedialAxis, Path, Side, bisected};
+use crate::axis::{Accuracy, Curve, KeypointKind, MedialAxis, Path, Side, bisected, crossing};
 use crate::check::Name;
 use crate::domain::{Domain, Site};
 use crate::engine::exterior_frame;
@@ -453,7 +453,9 @@ impl Limb<'_> {
             (None, None) => (0.0, end),
         };
         let at = |u: f64| low + (high - low) * u;
-        at(bisected(|u| self.value(measure, at(u)) - threshold))
+        let missing = |u: f64| self.value(measure, at(u)) - threshold;
+        // What swallows a disk may be another one a little farther on.
+        at(if measure == Measure::Scale { bisected(missing) } else { crossing(missing) })
     }
 
     /// The excess at the start, from the corners behind all that ends there.

@@ -14,7 +14,7 @@ use super::fire::Way;
 use super::hierarchy::{Hierarchy, Span};
 use super::measure::Measure;
 use super::rest::{Pruned, Rest};
-use crate::axis::bisected;
+use crate::axis::crossing;
 
 /// A path, or the part of one up to the root, in the direction in which it burns.
 #[derive(Clone, Copy)]
@@ -65,7 +65,7 @@ impl Hierarchy<'_> {
             };
             let cut = between.filter(|_| end >= threshold).map_or(0.0, |(low, high)| {
                 let at = |u: f64| low + (high - low) * u;
-                at(bisected(|u| value(at(u)) - threshold))
+                at(crossing(|u| value(at(u)) - threshold))
             });
             let excess_at_cut = if cut > 0.0 { limb.value(Measure::Excess, cut) } else { 0.0 };
             if cut > 0.0 {

@@ -1,7 +1,6 @@
 //! What is left of an axis when parts of paths are removed.
 
-use crate::axis::{KeypointKind, MedialAxis, Path};
-use crate::geom::Point;
+use crate::axis::{Keypoint, KeypointKind, KeypointTable, MedialAxis, Path, PathTable};
 
 /// What is left of an axis.
 #[derive(Clone, Debug, PartialEq)]
@@ -32,14 +31,6 @@ pub(super) struct Rest<'a> {
     pub error: f64,
 }
 
-/// A keypoint of what is left.
-struct Spot {
-    position: Point,
-    radius: f64,
-    kind: KeypointKind,
-    governors: Vec<u32>,
-}
-
 impl<'a> Rest<'a> {
     /// All of an axis.
     pub fn of(axis: &'a MedialAxis) -> Self {
@@ -56,10 +47,13 @@ impl<'a> Rest<'a> {
     pub fn finish(self, roots: &[u32], lost: &[(u32, f64)]) -> Pruned {
         let Self { axis, kept, mut error } = self;
         let whole = [0.0, 1.0];
-        if kept.iter().all(|part| *part == whole) {
+        let all = || {
             let origin = |path| Origin { path, part: whole };
-            let origins = (0..kept.len() as u32).map(origin).collect();
-            return Pruned { axis: axis.clone(), error, origins };
+            let origins = (0..axis.paths().len() as u32).map(origin).collect();
+            Pruned { axis: axis.clone(), error: 0.0, origins }
+        };
+        if kept.iter().all(|part| *part == whole) {
+            return all();
         }
         let n = axis.keypoints().len();
         let mut degree = vec![0_u32; n];
@@ -78,71 +72,66 @@ impl<'a> Rest<'a> {
                 error = error.max(excess);
             }
         }
-        let mut points: Vec<Spot> = Vec::new();
+        let keypoints = axis.keypoints();
+        let is_left = |&[low, high]: &[f64; 2]| low < high || is_root(low, high);
+        // Sites that govern nothing any more are not listed.
+        let mut sites = vec![u32::MAX; axis.sites().len()];
+        for k in (0..n as u32).filter(|&k| stays[k as usize]) {
+            axis.governors(k).iter().for_each(|&site| sites[site as usize] = 0);
+        }
+        for (path, _) in axis.paths().iter().zip(&kept).filter(|(_, part)| is_left(part)) {
+            (sites[path.left as usize], sites[path.right as usize]) = (0, 0);
+        }
+        let Some(table) = axis.sites_among(&mut sites) else { return all() };
+        let site = |site: u32| sites[site as usize];
+        let mut points = KeypointTable::with_room(n);
         let mut number = vec![u32::MAX; n];
-        for (k, keypoint) in (0..).zip(axis.keypoints().iter()) {
-            if !stays[k as usize] {
-                continue;
-            }
-            number[k as usize] = points.len() as u32;
+        for k in (0..n as u32).filter(|&k| stays[k as usize]) {
+            let keypoint = keypoints.at(k);
+            number[k as usize] = points.len();
             let kind = match (degree[k as usize], keypoint.kind) {
                 (1, kind @ (KeypointKind::End | KeypointKind::Clipped)) => kind,
                 (0 | 1, _) => KeypointKind::Tip,
                 (2, _) => KeypointKind::Transition,
                 _ => KeypointKind::Junction,
             };
-            let (position, radius) = (keypoint.position, keypoint.radius);
-            points.push(Spot { position, radius, kind, governors: axis.governors(k).to_vec() });
+            let governors = axis.governors(k).iter().map(|&governor| site(governor));
+            points.push(&Keypoint { kind, ..keypoint }, governors);
         }
-        let (mut paths, mut origins) = (Vec::new(), Vec::new());
-        for (origin, (path, &[low, high])) in (0..).zip(axis.paths().iter().zip(&kept)) {
-            // Removed from both ends up to the root, or from one end altogether.
-            let is_root = low == high && 0.0 < low && low < 1.0;
-            if low >= high && !is_root {
+        let (mut paths, mut origins) = (Vec::with_capacity(kept.len()), Vec::new());
+        origins.reserve(kept.len());
+        for (origin, (path, part)) in (0..).zip(axis.paths().iter().zip(&kept)) {
+            if !is_left(part) {
                 continue;
             }
-            let curve = axis.curve(&path);
+            let (left, right) = (site(path.left), site(path.right));
             let mut tip = |u: f64| {
+                let curve = axis.curve(&path);
                 let (position, radius) = (curve.point_at(u), curve.radius_at(u));
-                let governors = vec![path.left.min(path.right), path.left.max(path.right)];
-                points.push(Spot { position, radius, kind: KeypointKind::Tip, governors });
-                points.len() as u32 - 1
+                let tip = Keypoint { position, radius, kind: KeypointKind::Tip };
+                points.push(&tip, [left.min(right), left.max(right)].into_iter());
+                points.len() - 1
             };
-            if is_root {
+            let &[low, high] = part;
+            if is_root(low, high) {
                 tip(low);
                 continue;
             }
             let from = if low == 0.0 { number[path.from as usize] } else { tip(low) };
             let to = if high == 1.0 { number[path.to as usize] } else { tip(high) };
-            paths.push(Path { from, to, ..path });
+            paths.push(Path { from, to, left, right });
             origins.push(Origin { path: origin, part: [low, high] });
         }
-        Pruned { axis: without_idle_sites(axis, points, paths), error, origins }
+        points.shrink();
+        let mut paths = PathTable::of(paths.into_iter(), &points);
+        paths.shrink();
+        let MedialAxis { engine, side, accuracy, .. } = *axis;
+        let axis = MedialAxis::from_tables(engine, side, accuracy, false, table, points, paths);
+        Pruned { axis, error, origins }
     }
 }
 
-/// An incomplete axis of these parts, with the sites that govern something.
-fn without_idle_sites(
-    axis: &MedialAxis,
-    mut points: Vec<Spot>,
-    mut paths: Vec<Path>,
-) -> MedialAxis {
-    let mut number = vec![u32::MAX; axis.sites().len()];
-    for &site in points.iter().flat_map(|point| &point.governors) {
-        number[site as usize] = 0;
-    }
-    let mut sites = Vec::new();
-    for (number, site) in number.iter_mut().zip(axis.sites().iter()) {
-        if *number == 0 {
-            *number = sites.len() as u32;
-            sites.push(site);
-        }
-    }
-    let renumber = |site: &mut u32| *site = number[*site as usize];
-    points.iter_mut().flat_map(|point| &mut point.governors).for_each(renumber);
-    paths.iter_mut().flat_map(|path| [&mut path.left, &mut path.right]).for_each(renumber);
-    let keypoints = points.iter().map(|p| (p.position, p.radius, p.kind, &p.governors[..]));
-    let MedialAxis { engine, side, accuracy, .. } = *axis;
-    MedialAxis::from_parts(engine, side, accuracy, false, sites, keypoints, paths)
-        .unwrap_or_else(|| axis.clone())
+/// Whether a path is removed from both ends up to the root, or from one end altogether.
+fn is_root(low: f64, high: f64) -> bool {
+    low == high && 0.0 < low && low < 1.0
 }
