@@ -226,8 +226,41 @@ impl Hoop {
     /// The bits of those runs whose lines are not all certainly clear of a disk.
     #[inline]
     pub(super) fn sift(&self, disk: &Pinned, mask: u32, wide: Option<Wide>) -> u32 {
-        mask & !clear_of(&self.rim, &self.spread, disk, wide)
+        let Self { rim, spread } = self;
+        let mask = mask & !clear_at_once(rim, spread, disk, wide);
+        // What a disk may be off differs by direction.
+        if mask.count_ones() > SOME && disk.is_solved() {
+            return mask & !clear_of(rim, spread, disk, wide);
+        }
+        mask
     }
+}
+
+/// The bits of those runs whose lines are all certainly clear of a disk, with one bound for all.
+#[inline]
+fn clear_at_once(rim: &Rim, spread: &Eight, disk: &Pinned, wide: Option<Wide>) -> u32 {
+    #[cfg(target_arch = "x86_64")]
+    if let Some(wide) = wide {
+        return wide.runs_clear_at_once(rim, spread, disk);
+    }
+    let _ = wide;
+    runs_clear_at_once(rim, spread, disk)
+}
+
+#[inline(always)]
+fn runs_clear_at_once(rim: &Rim, spread: &Eight, disk: &Pinned) -> u32 {
+    let Moved { by, more, error } = rim.moved(disk);
+    let error = error + 16.0 * U * (by.x.abs() + by.y.abs());
+    let least = more + (error + disk.bound) * (1.0 + 8.0 * U);
+    let mut low = [0.0; FAN];
+    for k in 0..FAN {
+        low[k] = rim.rest[k] + lowest(Point::new(rim.nx[k], rim.ny[k]), spread[k], by);
+    }
+    let mut mask = 0;
+    for k in 0..FAN {
+        mask |= u32::from(low[k] > least) << k;
+    }
+    mask
 }
 
 /// The bits of those runs whose lines are all certainly clear of a disk.
@@ -282,6 +315,13 @@ impl Wide {
 
     #[inline]
     #[allow(unsafe_code, reason = "only the machine itself tells what instructions it has")]
+    fn runs_clear_at_once(self, rim: &Rim, spread: &Eight, disk: &Pinned) -> u32 {
+        // SAFETY: `self` is made only where the machine has AVX2.
+        unsafe { runs_clear_at_once_wide(rim, spread, disk) }
+    }
+
+    #[inline]
+    #[allow(unsafe_code, reason = "only the machine itself tells what instructions it has")]
     fn clear_of(self, rim: &Rim, by: Point, least: f64) -> u32 {
         // SAFETY: `self` is made only where the machine has AVX2.
         unsafe { clear_of_wide(rim, by, least) }
@@ -292,6 +332,12 @@ impl Wide {
 #[target_feature(enable = "avx2")]
 fn runs_clear_of_wide(rim: &Rim, spread: &Eight, disk: &Pinned) -> u32 {
     runs_clear_of(rim, spread, disk)
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2")]
+fn runs_clear_at_once_wide(rim: &Rim, spread: &Eight, disk: &Pinned) -> u32 {
+    runs_clear_at_once(rim, spread, disk)
 }
 
 #[cfg(target_arch = "x86_64")]

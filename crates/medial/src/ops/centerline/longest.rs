@@ -2,9 +2,12 @@
 //!
 //! # Method
 //! In a tree the node farthest from any node is an end of a longest path. With cycles the nodes far from
-//! the middle of such a way are tried until no pair that is left can be farther apart.
+//! the middle of such a way are tried until no pair that is left can be farther apart. The longest way of
+//! an axis without cycles is found while its leaves are peeled off, in the order of its keypoints.
 
-use super::graph::{Graph, Way};
+use super::graph::{Graph, NONE, Way};
+use super::line::Centerline;
+use crate::axis::MedialAxis;
 
 /// Nodes that are visited at most to find the longest way around cycles, from all points together that
 /// are tried as its end: about a second.
@@ -54,6 +57,78 @@ pub(super) fn way(graph: &Graph, component: &[u32]) -> Option<Way> {
     }
     (length > 0.0).then(|| Way { is_best, ..graph.way(&best, end) })
 }
+
+/// What has been peeled off around a keypoint.
+#[derive(Clone, Copy)]
+struct Peeled {
+    /// How many of its paths are left, and the exclusive or of their numbers: that of the last one.
+    left: u32,
+    numbers: u32,
+    /// The longest way to an end through what is gone, and the path by which it starts.
+    reach: f64,
+    by: u32,
+}
+
+/// The longest way between two ends of an axis, if there are no cycles.
+///
+/// # Errors
+/// If there are.
+pub(super) fn in_forest(axis: &MedialAxis) -> Result<Option<Centerline>, HasCycles> {
+    let nothing = Peeled { left: 0, numbers: 0, reach: 0.0, by: NONE };
+    let mut around = vec![nothing; axis.keypoints().len()];
+    for (number, path) in (0..).zip(axis.paths()) {
+        for end in [path.from, path.to] {
+            around[end as usize].left += 1;
+            around[end as usize].numbers ^= number;
+        }
+    }
+    // The length, the keypoint nearest to the root, and the paths by which both ways leave it.
+    let mut best = (0.0, 0, [NONE; 2]);
+    let mut gone = 0;
+    for leaf in 0..around.len() as u32 {
+        let mut keypoint = leaf;
+        while around[keypoint as usize].left == 1 {
+            let Peeled { numbers: number, reach, .. } = around[keypoint as usize];
+            let path = axis.paths().at(number);
+            let other = if path.from == keypoint { path.to } else { path.from };
+            let arm = reach + axis.curve(&path).length();
+            around[keypoint as usize].left = 0;
+            let there = &mut around[other as usize];
+            there.left -= 1;
+            there.numbers ^= number;
+            if there.reach + arm > best.0 {
+                best = (there.reach + arm, other, [there.by, number]);
+            }
+            if arm > there.reach {
+                (there.reach, there.by) = (arm, number);
+            }
+            gone += 1;
+            keypoint = other;
+        }
+    }
+    if gone < axis.paths().len() {
+        return Err(HasCycles);
+    }
+    let (length, top, ways) = best;
+    let down = |mut by: u32| {
+        let (mut keypoint, mut curves) = (top, Vec::new());
+        while by != NONE {
+            let path = axis.paths().at(by);
+            let path = if path.from == keypoint { path } else { path.reversed() };
+            curves.push(axis.curve(&path));
+            keypoint = path.to;
+            by = around[keypoint as usize].by;
+        }
+        curves
+    };
+    let mut curves: Vec<_> = down(ways[0]).iter().rev().map(|curve| curve.reversed()).collect();
+    curves.extend(down(ways[1]));
+    let line = Centerline { curves, extensions: [None; 2], is_best: true, is_free: [true; 2] };
+    Ok((length > 0.0).then_some(line))
+}
+
+/// Some paths of an axis make a cycle.
+pub(super) struct HasCycles;
 
 /// A closed way through nodes with two pieces each.
 fn cycle(graph: &Graph, start: u32) -> Way {

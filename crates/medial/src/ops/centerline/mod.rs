@@ -188,12 +188,19 @@ pub fn centerlines(
     let of_points = graph::paths_of_points(&pruned, axis);
     let parts = [(&pruned, &all[..]), (axis, &of_points[..])];
     let count = options.count;
-    let mut lines = match &options.route {
+    let lines = match &options.route {
         Route::Between(points) => {
             let line = between::line(domain, parts, points, options)?;
             return Ok(if count > 0 { vec![line] } else { Vec::new() });
         }
         Route::Longest => {
+            // Mostly there is one line to be found in one forest.
+            if count == 1
+                && of_points.is_empty()
+                && let Ok(line) = longest::in_forest(&pruned)
+            {
+                return Ok(line.into_iter().map(|line| extended(domain, line, options)).collect());
+            }
             let graphs = parts.map(|(axis, paths)| Graph::whole(axis, paths));
             ranked(graphs, count, longest::way)
         }
@@ -203,12 +210,14 @@ pub fn centerlines(
             ranked(graphs, count, |graph, component| label::way(graph, component, height))
         }
     };
+    Ok(lines.into_iter().map(|line| extended(domain, line, options)).collect())
+}
+
+fn extended(domain: &Domain, mut line: Centerline, options: &CenterlineOptions) -> Centerline {
     if options.extension == Extension::Boundary {
-        for line in &mut lines {
-            line.extensions = extend::to_boundary(domain, line);
-        }
+        line.extensions = extend::to_boundary(domain, &line);
     }
-    Ok(lines)
+    line
 }
 
 /// A component of one of some graphs, with its best way.
