@@ -93,9 +93,14 @@ impl Wide {
 }
 
 impl Query {
+    /// A scope in lengths of a tree, whose coordinates are all rounded by no more than `slack`.
     #[inline]
     pub fn new(scope: &Scope, scale: f64, slack: f32) -> Self {
         let reach = scope.reach * scale;
+        // Lanes with anything within have their origin no farther out than the disk, but for their own
+        // extent. Near the origin of the plane coordinates are finer than elsewhere.
+        let size = scope.centre.x.abs() + scope.centre.y.abs() + 2.0 * scope.reach.abs();
+        let slack = slack.min((64.0 * f64::EPSILON * size * scale) as f32 + VANISHING);
         let normal = scope.normal;
         let border = scope.border * scale;
         let halved = normal.x != 0.0 || normal.y != 0.0;
