@@ -19,35 +19,53 @@ use crate::axis::crossing;
 /// A path, or the part of one up to the root, in the direction in which it burns.
 #[derive(Clone, Copy)]
 struct Stretch {
-    /// The relative excess where it starts, at its neck, if it has one, and where it ends.
+    /// The relative excess where it starts, or at its neck, if that is less.
     start: f64,
-    neck: f64,
+    /// That where it ends.
     end: f64,
-    /// The parameters where it would be cut, and of its end.
+    /// The parameter where it would be cut, as far as it is cut at its own ends or neck; 0 where it is not.
     cut: f64,
-    last: f64,
-    /// The excess at both.
+    /// The excess there.
     excess_at_cut: f64,
+    /// That where it ends.
     excess: f64,
     /// The least relative excess between its end and the root.
     beyond: f64,
 }
 
 impl Stretch {
+    /// Where nothing burns.
+    const NONE: Self = Self {
+        start: f64::INFINITY,
+        end: f64::INFINITY,
+        cut: 0.0,
+        excess_at_cut: 0.0,
+        excess: 0.0,
+        beyond: f64::INFINITY,
+    };
+
     fn at_end(&self) -> f64 {
         self.end.min(self.beyond)
     }
 
     fn at_start(&self) -> f64 {
-        self.start.min(self.neck).min(self.at_end())
+        self.start.min(self.at_end())
     }
 }
 
+/// The stretches of all paths.
+struct Stretches {
+    /// Of each path in the direction in which it burns; of one with a root from its start to there.
+    first: Vec<Stretch>,
+    /// Paths with a root, the parameter of that, and the stretch from the end.
+    rooted: Vec<(u32, f64, Stretch)>,
+}
+
 impl Hierarchy<'_> {
-    /// The stretches of each path, from its start and from its end, with the places where a threshold would
-    /// cut them.
-    fn stretches(&self, threshold: f64) -> Vec<[Option<Stretch>; 2]> {
-        let mut all = vec![[None; 2]; self.fire.ways.len()];
+    /// The stretches of all paths, with the places where a threshold would cut them.
+    fn stretches(&self, threshold: f64) -> Stretches {
+        let mut all =
+            Stretches { first: vec![Stretch::NONE; self.fire.ways.len()], rooted: Vec::new() };
         self.burn(f64::INFINITY, |part, limb, _| {
             let value = |u: f64| limb.value(Measure::RelativeExcess, u);
             let at_neck = limb.neck(part.end);
@@ -72,90 +90,101 @@ impl Hierarchy<'_> {
                 // What comes next starts from the farthest corner that was found last.
                 value(part.end);
             }
-            all[part.path as usize][usize::from(!part.forwards)] = Some(Stretch {
-                start,
-                neck,
+            let stretch = Stretch {
+                start: start.min(neck),
                 end,
                 cut,
-                last: part.end,
                 excess_at_cut,
                 excess: end * limb.radius(part.end),
                 beyond: f64::INFINITY,
-            });
+            };
+            match part.root {
+                Some(root) if !part.forwards => all.rooted.push((part.path, root, stretch)),
+                _ => all.first[part.path as usize] = stretch,
+            }
             0.0
         });
         // From the roots outwards: each keypoint has one path that leads on.
         let mut least = vec![f64::INFINITY; self.fire.times.len()];
-        let is_both = |path: u32| matches!(self.fire.ways[path as usize], Way::Both(_));
-        let (both, others): (Vec<u32>, Vec<u32>) =
-            self.fire.order.iter().partition(|&&path| is_both(path));
-        for path in both.into_iter().chain(others.into_iter().rev()) {
+        for (path, _, second) in &all.rooted {
+            let ends = self.axis.paths().at(*path);
+            least[ends.from as usize] = all.first[*path as usize].at_start();
+            least[ends.to as usize] = second.at_start();
+        }
+        for &path in self.fire.order.iter().rev() {
             let ends = self.axis.paths().at(path);
-            for (part, (from, to)) in
-                [(ends.from, ends.to), (ends.to, ends.from)].into_iter().enumerate()
-            {
-                let Some(stretch) = &mut all[path as usize][part] else { continue };
-                stretch.beyond = if is_both(path) { f64::INFINITY } else { least[to as usize] };
-                least[from as usize] = stretch.at_start();
-            }
+            let (from, to) = match self.fire.ways[path as usize] {
+                Way::Forwards => (ends.from, ends.to),
+                Way::Backwards => (ends.to, ends.from),
+                Way::Both(_) | Way::Never => continue,
+            };
+            let stretch = &mut all.first[path as usize];
+            stretch.beyond = least[to as usize];
+            least[from as usize] = stretch.at_start();
         }
         all
     }
 
     /// The values along all paths.
     pub(super) fn prominences(&self, kept: impl Fn(u32) -> [f64; 2]) -> Vec<Span> {
-        let nothing = Span { start: f64::INFINITY, end: f64::INFINITY, most: f64::INFINITY };
-        let span = |(path, parts): (u32, [Option<Stretch>; 2])| {
+        let Stretches { first, rooted } = self.stretches(0.0);
+        // Where it was cut the rest is enough.
+        let at_start = |stretch: &Stretch, is_cut: bool| {
+            if is_cut { stretch.at_end() } else { stretch.at_start() }
+        };
+        let span = |(path, stretch): (u32, &Stretch)| {
             let [low, high] = kept(path);
-            // Where it was cut the rest is enough.
-            let at_start = |stretch: Stretch, is_cut: bool| {
-                if is_cut { stretch.at_end() } else { stretch.at_start() }
-            };
-            match parts {
-                [None, None] => nothing,
-                [Some(one), None] => {
-                    let end = one.at_end();
-                    Span { start: at_start(one, low > 0.0), end, most: end }
+            let end = stretch.at_end();
+            match self.fire.ways[path as usize] {
+                Way::Backwards => {
+                    Span { start: end, end: at_start(stretch, high < 1.0), most: end }
                 }
-                [None, Some(one)] => {
-                    let start = one.at_end();
-                    Span { start, end: at_start(one, high < 1.0), most: start }
-                }
-                [Some(one), Some(other)] => Span {
-                    start: at_start(one, low > 0.0),
-                    end: at_start(other, high < 1.0),
-                    most: one.at_end().max(other.at_end()),
-                },
+                // What lies beyond a root comes below.
+                _ => Span { start: at_start(stretch, low > 0.0), end, most: end },
             }
         };
-        (0..).zip(self.stretches(0.0)).map(span).collect()
+        let mut spans: Vec<Span> = (0..).zip(&first).map(span).collect();
+        for (path, _, second) in &rooted {
+            let [_, high] = kept(*path);
+            let span = &mut spans[*path as usize];
+            span.end = at_start(second, high < 1.0);
+            span.most = span.most.max(second.at_end());
+        }
+        spans
     }
 
     /// What is left if all that is less prominent than a threshold is removed.
     pub(super) fn without_less_prominent(&self, threshold: f64) -> Pruned {
         let mut rest = Rest::of(self.axis);
         let mut lost: Vec<(u32, f64)> = Vec::new();
-        for (path, parts) in (0..).zip(self.stretches(threshold)) {
-            let ends = self.axis.paths().at(path);
-            let has_root = parts.iter().all(Option::is_some);
-            for (part, stretch) in parts.into_iter().enumerate() {
-                let Some(stretch) = stretch else { continue };
-                let forwards = part == 0;
-                let along = |u: f64| if forwards { u } else { 1.0 - u };
-                if stretch.at_end() < threshold {
-                    if has_root {
-                        rest.error = rest.error.max(stretch.excess);
-                    } else {
+        let Stretches { first, rooted } = self.stretches(threshold);
+        let mut remove = |path: u32, stretch: &Stretch, forwards: bool, root: Option<f64>| {
+            let along = |u: f64| if forwards { u } else { 1.0 - u };
+            if stretch.at_end() < threshold {
+                match root {
+                    Some(_) => rest.error = rest.error.max(stretch.excess),
+                    None => {
+                        let ends = self.axis.paths().at(path);
                         lost.push((if forwards { ends.to } else { ends.from }, stretch.excess));
                     }
-                    // Up to one root from both sides.
-                    let root = parts[0].filter(|_| has_root).map(|first| first.last);
-                    rest.cut(path, forwards, root.unwrap_or_else(|| along(stretch.last)));
-                } else if stretch.at_start() < threshold {
-                    rest.error = rest.error.max(stretch.excess_at_cut);
-                    rest.cut(path, forwards, along(stretch.cut));
                 }
+                // Up to one root from both sides.
+                rest.cut(path, forwards, root.unwrap_or_else(|| along(1.0)));
+            } else if stretch.at_start() < threshold {
+                rest.error = rest.error.max(stretch.excess_at_cut);
+                rest.cut(path, forwards, along(stretch.cut));
             }
+        };
+        for (path, stretch) in (0..).zip(&first) {
+            match self.fire.ways[path as usize] {
+                Way::Forwards => remove(path, stretch, true, None),
+                Way::Backwards => remove(path, stretch, false, None),
+                Way::Both(_) | Way::Never => {}
+            }
+        }
+        for (path, root, second) in &rooted {
+            remove(*path, &first[*path as usize], true, Some(*root));
+            remove(*path, second, false, Some(*root));
         }
         rest.finish(&self.fire.roots, &lost)
     }
