@@ -39,6 +39,22 @@ fn every_measure_is_known() {
 }
 
 #[test]
+fn what_is_pruned_to_a_point_is_a_point() {
+    let source = r#"{"type": "Feature", "properties": {"kind": "shed"}, "geometry": {"type": "Polygon",
+        "coordinates": [[[0, 0], [6, 0], [6, 2], [0, 2], [0, 0]]]}}"#;
+    let run = medial_with(&["prune", "-", "--from", "geojson", "--max-error", "9"], source);
+    assert_eq!((run.status, run.errors.as_str()), (Some(0), ""));
+    let all: Value = serde_json::from_str(run.text()).unwrap();
+    let features = all["features"].as_array().unwrap();
+    assert_eq!(features.len(), 1);
+    assert_eq!(features[0]["geometry"]["type"], "Point");
+    assert_eq!(features[0]["geometry"]["coordinates"], serde_json::json!([3.0, 1.0]));
+    let properties = &features[0]["properties"];
+    assert_eq!((&properties["kind"], &properties["source_kind"]), (&"tip".into(), &"shed".into()));
+    assert_eq!((&properties["radius"], &properties["degree"]), (&1.0.into(), &0.into()));
+}
+
+#[test]
 fn what_is_pruned_is_judged_like_any_axis() {
     let river = fixture("river.geojson").display().to_string();
     let pruned = medial(&[

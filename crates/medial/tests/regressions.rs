@@ -37,6 +37,11 @@ fn a_ring_on_the_path_is_met_though_one_of_its_edges_proposes_a_disk_far_away() 
 }
 
 #[test]
+fn a_path_leads_around_a_hole_smaller_than_the_doubt_about_its_start() {
+    is_right("issue_3_hole_smaller_than_the_doubt_about_a_start.wkt");
+}
+
+#[test]
 fn an_edge_of_another_component_that_ends_in_the_first_corner_makes_no_keypoint() {
     is_right("issue_2_edge_of_another_component_ends_at_the_first_corner.wkt");
 }

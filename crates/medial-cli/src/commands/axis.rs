@@ -73,7 +73,7 @@ fn run_on(args: &AxisArgs, documents: Documents) -> Result<Status, Failure> {
         ));
     }
     let mut scenes = Vec::new();
-    let mut tables = Vec::new();
+    let mut told = Ok(());
     let mut write = std::time::Duration::ZERO;
     let (at_once, threads) = run.threads(&layer);
     let options = engine::Options { threads, ..engine::Options::default() };
@@ -103,16 +103,16 @@ fn run_on(args: &AxisArgs, documents: Documents) -> Result<Status, Failure> {
         },
         |(drawn, table)| {
             scenes.extend(drawn);
-            tables.push(table);
+            if let (Some(nodes), Ok(())) = (&mut nodes, &told) {
+                told = nodes.write(table.as_bytes());
+            }
         },
         |bytes| timed(&mut write, || sink.write(bytes)),
     )?;
+    told?;
     if status != Status::NoResult {
-        if let Some(mut nodes) = nodes {
-            timed(&mut write, || {
-                tables.iter().try_for_each(|table| nodes.write(table.as_bytes()))?;
-                nodes.finish()
-            })?;
+        if let Some(nodes) = nodes {
+            timed(&mut write, || nodes.finish())?;
         }
         timed(&mut write, || sink.finish(&draw(format, &scenes, &picture)?))?;
     }

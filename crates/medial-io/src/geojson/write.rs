@@ -30,7 +30,8 @@ pub fn header(crs: Option<&Json>) -> String {
 pub const SEPARATOR: &[u8] = b",\n";
 
 /// Appends the features of one axis, each behind a [`SEPARATOR`]: paths with the values that were
-/// measured, then keypoints if asked for.
+/// measured, then keypoints if asked for; those without a path in any case, for nothing else shows what was
+/// pruned to a point.
 pub fn features(
     out: &mut Vec<u8>,
     source: &Feature,
@@ -62,6 +63,9 @@ fn write(
     [before, after]: [&[u8]; 2],
 ) {
     let tolerance = drawing.tolerance(axis);
+    let degrees = if drawing.keypoints || !axis.complete { axis.degrees() } else { Vec::new() };
+    let is_written = |&degree: &u32| drawing.keypoints || degree == 0;
+    let drawing = Drawing { keypoints: degrees.iter().any(is_written), ..drawing };
     let columns: Vec<_> = measured.iter().flat_map(measure_columns).collect();
     let ours = |name: &str| is_ours(name, drawing) || columns.iter().any(|ours| ours == name);
     let mut common = beginning(source, axis.engine, ours, before);
@@ -99,14 +103,9 @@ fn write(
         out.extend_from_slice(b"]}}");
         out.extend_from_slice(after);
     }
-    if drawing.keypoints {
-        keypoints(out, axis, &places, &common, after);
-    }
-}
-
-fn keypoints(out: &mut Vec<u8>, axis: &MedialAxis, places: &Places, common: &[u8], after: &[u8]) {
-    for ((k, keypoint), degree) in (0..).zip(axis.keypoints()).zip(axis.degrees()) {
-        out.extend_from_slice(common);
+    for (k, degree) in (0..).zip(degrees).filter(|(_, degree)| is_written(degree)) {
+        let keypoint = axis.keypoints().at(k);
+        out.extend_from_slice(&common);
         let properties = format!(
             "\"keypoint\":{k},\"kind\":\"{}\",\
              \"radius\":{:?},\"degree\":{degree},\"governors\":{:?}}},\

@@ -243,7 +243,7 @@ impl Curve {
         }
         match self.form {
             Form::Linear | Form::Corners { .. } => length / whole,
-            Form::Parabola { .. } => crossing(|u| self.piece(0.0, u).length() - length),
+            Form::Parabola { .. } => crossing(|u| self.piece(0.0, u).length() - length)[1],
         }
     }
 
@@ -586,25 +586,26 @@ pub(crate) fn bisected(sign: impl Fn(f64) -> f64) -> f64 {
     }
 }
 
-/// The same for a continuous function, whose values save most of the steps: within 2 ulp of 1, not negative
-/// there.
+/// The same for a continuous function, whose values save most of the steps: the last place before, where it
+/// is negative, and the first one that is not, no more than 2 ulp of 1 apart.
 ///
 /// The ITP method (Oliveira and Takahashi 2020): regula falsi, moved towards the middle by little, and no
 /// farther from it than bisection can afford. No more steps than bisection takes, and two.
-pub(crate) fn crossing(value: impl Fn(f64) -> f64) -> f64 {
+pub(crate) fn crossing(value: impl Fn(f64) -> f64) -> [f64; 2] {
     const ENOUGH: f64 = 2.0 * f64::EPSILON;
     /// Steps of bisection down to that, and two to spare.
     const MOST: i32 = 53;
     let (mut low, mut high) = ((0.0, value(0.0)), (1.0, value(1.0)));
     let is_finite = low.1.is_finite() && high.1.is_finite();
     if !is_finite || low.1 >= 0.0 || high.1 <= 0.0 {
-        return if low.1 >= 0.0 {
+        let place = if low.1 >= 0.0 {
             0.0
         } else if high.1 <= 0.0 {
             1.0
         } else {
             bisected(value)
         };
+        return [place; 2];
     }
     for step in 0..=MOST {
         let width = high.0 - low.0;
@@ -626,11 +627,11 @@ pub(crate) fn crossing(value: impl Fn(f64) -> f64) -> f64 {
         } else {
             high = (u, there);
             if there == 0.0 {
-                break;
+                return [u; 2];
             }
         }
     }
-    high.0
+    [low.0, high.0]
 }
 
 /// The real roots of `x³ + px + q`, rounded; one that stands for several comes more than once.

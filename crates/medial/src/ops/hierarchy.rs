@@ -455,7 +455,12 @@ impl Limb<'_> {
         let at = |u: f64| low + (high - low) * u;
         let missing = |u: f64| self.value(measure, at(u)) - threshold;
         // What swallows a disk may be another one a little farther on.
-        at(if measure == Measure::Scale { bisected(missing) } else { crossing(missing) })
+        if measure == Measure::Scale {
+            return at(bisected(missing));
+        }
+        // No more than the threshold is lost, unless that is reached at the very end.
+        let [before, after] = crossing(missing);
+        at(if after == 1.0 { after } else { before })
     }
 
     /// The excess at the start, from the corners behind all that ends there.

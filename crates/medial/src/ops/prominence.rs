@@ -83,7 +83,7 @@ impl Hierarchy<'_> {
             };
             let cut = between.filter(|_| end >= threshold).map_or(0.0, |(low, high)| {
                 let at = |u: f64| low + (high - low) * u;
-                at(crossing(|u| value(at(u)) - threshold))
+                at(crossing(|u| value(at(u)) - threshold)[1])
             });
             let excess_at_cut = if cut > 0.0 { limb.value(Measure::Excess, cut) } else { 0.0 };
             if cut > 0.0 {

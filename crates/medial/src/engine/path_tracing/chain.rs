@@ -159,6 +159,7 @@ impl Search<'_> {
                 && disk.radius <= GROWTH * known
                 && self.passed.len() < LONGEST
                 && self.behind.is_empty()
+                && !self.may_turn_back(&gap, &disk)
                 && (!self.is_far(&gap, &disk) || self.next_elements(&gap, &disk).is_none())
             {
                 (r, l) = self.pass(r, l, disk, site);
@@ -454,6 +455,19 @@ impl Search<'_> {
             let corner = self.domain.edge(site.index()).start;
             let (turn, doubt, _) = spokes(gap, corner, disk, side);
             !site.is_edge() && turn > doubt
+        })
+    }
+
+    /// Whether the spoke of a corner that governs is not certain to turn as it must on the way to a disk.
+    /// Where doubles cannot tell, the path may have left the corner before and come back to it around a
+    /// hole no larger than the doubt.
+    pub fn may_turn_back(&self, gap: &Gap, disk: &TouchingDisk) -> bool {
+        [(gap.right, 1.0), (gap.left, -1.0)].into_iter().any(|(site, side)| {
+            let corner = self.domain.edge(site.index()).start;
+            !site.is_edge() && {
+                let (turn, doubt, _) = spokes(gap, corner, disk, side);
+                turn.is_nan() || turn >= -doubt
+            }
         })
     }
 

@@ -178,9 +178,12 @@ impl Search<'_> {
                 Verdict::Clear(contacts) => {
                     self.leave_out_those_in(&contacts);
                     let (right, left) = self.link;
+                    let here = start_after(&self.passed, &anchor);
+                    let gap = Gap::new(right, left, here, front);
+                    if self.may_turn_back(&gap, &disk) {
+                        return None;
+                    }
                     if self.rings.is_some() {
-                        let here = start_after(&self.passed, &anchor);
-                        let gap = Gap::new(right, left, here, front);
                         let slack = disk.bound + here.doubt + 64.0 * U * self.largest;
                         if gap.course(self.domain).position(&disk) <= slack
                             || contact_behind(&contacts, right, left).is_some()
