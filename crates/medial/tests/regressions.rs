@@ -39,6 +39,12 @@ fn a_ring_on_the_path_is_met_though_one_of_its_edges_proposes_a_disk_far_away() 
 #[test]
 fn a_path_leads_around_a_hole_smaller_than_the_doubt_about_its_start() {
     is_right("issue_3_hole_smaller_than_the_doubt_about_a_start.wkt");
+    is_right("issue_3_hole_in_the_middle_smaller_than_the_doubt.wkt");
+}
+
+#[test]
+fn a_keypoint_that_waits_is_the_end_only_if_no_hole_smaller_than_the_doubt_lies_before_it() {
+    is_right("issue_3_known_keypoint_behind_a_hole_smaller_than_the_doubt.wkt");
 }
 
 #[test]

@@ -256,11 +256,7 @@ fn runs_clear_at_once(rim: &Rim, spread: &Eight, disk: &Pinned) -> u32 {
     for k in 0..FAN {
         low[k] = rim.rest[k] + lowest(Point::new(rim.nx[k], rim.ny[k]), spread[k], by);
     }
-    let mut mask = 0;
-    for k in 0..FAN {
-        mask |= u32::from(low[k] > least) << k;
-    }
-    mask
+    low.into_iter().enumerate().fold(0, |mask, (k, low)| mask | u32::from(low > least) << k)
 }
 
 /// The bits of those runs whose lines are all certainly clear of a disk.

@@ -247,7 +247,9 @@ impl Search<'_> {
             }
         }
         let (keypoint, disk, _) = nearest?;
-        let advances = self.advances(gap, &disk, 1.0) && self.advances(gap, &disk, -1.0);
+        let advances = self.advances(gap, &disk, 1.0)
+            && self.advances(gap, &disk, -1.0)
+            && !self.may_turn_back(gap, &disk);
         (advances && self.is_open(gap.right, gap.left, anchor, Round::disk(&disk)))
             .then_some(keypoint)
     }
