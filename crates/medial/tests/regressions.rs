@@ -40,6 +40,7 @@ fn a_ring_on_the_path_is_met_though_one_of_its_edges_proposes_a_disk_far_away() 
 fn a_path_leads_around_a_hole_smaller_than_the_doubt_about_its_start() {
     is_right("issue_3_hole_smaller_than_the_doubt_about_a_start.wkt");
     is_right("issue_3_hole_in_the_middle_smaller_than_the_doubt.wkt");
+    is_right("issue_3_hole_around_which_the_search_came_back.wkt");
 }
 
 #[test]

@@ -281,7 +281,7 @@ impl<'a> Search<'a> {
             let first = self.first_proposal(&gap);
             self.settle(&gap, first)?
         };
-        let mut last_hidden = None;
+        let (mut last_hidden, mut last_left) = (None, None);
         // Each turn ends the path at an earlier site.
         for _ in 0..=2 * self.tree.items().len() {
             self.watch.check()?;
@@ -294,6 +294,15 @@ impl<'a> Search<'a> {
                     .exact_first(&gap, &behind)
                     .or_else(|| self.exact_first(&gap, &self.on_walks_of(&behind)))
                     .ok_or_else(|| self.broken(&gap))?;
+                let next = self.proposal_or_exact(&gap, site);
+                found = self.settle(&gap, next)?;
+                continue;
+            }
+            let leaving = self.left_before(&gap, &found);
+            if let Some(site) = self.first_on_path(&gap, &leaving)
+                && last_left.replace(site) != Some(site)
+            {
+                self.banned.clear();
                 let next = self.proposal_or_exact(&gap, site);
                 found = self.settle(&gap, next)?;
                 continue;
@@ -317,6 +326,22 @@ impl<'a> Search<'a> {
             found = self.settle(&gap, next)?;
         }
         Err(self.broken(&gap))
+    }
+
+    /// The edges at which corners that govern leave the path before its end, where doubles cannot tell that
+    /// they do not: then the end lies around a hole that hangs at such a corner.
+    fn left_before(&self, gap: &Gap, found: &Found) -> Vec<Site> {
+        let is_doubtful =
+            matches!(found, Found::Disk { disk, .. } if self.may_turn_back(gap, disk));
+        if !is_doubtful {
+            return Vec::new();
+        }
+        [(gap.right, self.domain.ahead(gap.right)), (gap.left, self.domain.behind(gap.left))]
+            .into_iter()
+            .filter(|(governor, _)| !governor.is_edge())
+            .map(|(_, edge)| edge)
+            .filter(|&edge| self.is_between(gap, edge, found))
+            .collect()
     }
 
     fn broken(&self, gap: &Gap) -> EngineError {
