@@ -152,7 +152,7 @@ impl Rim {
         let mask = self.sift_at_once(disk, mask, wide);
         // What a disk may be off differs by direction.
         if mask.count_ones() > SOME && disk.is_solved() {
-            return mask & !clear_of(self, &[0.0; FAN], disk, wide);
+            return mask & !clear_of(self, &[0.0; FAN], disk, true, wide);
         }
         mask
     }
@@ -227,51 +227,36 @@ impl Hoop {
     #[inline]
     pub(super) fn sift(&self, disk: &Pinned, mask: u32, wide: Option<Wide>) -> u32 {
         let Self { rim, spread } = self;
-        let mask = mask & !clear_at_once(rim, spread, disk, wide);
+        let clear = |by_direction| clear_of(rim, spread, disk, by_direction, wide);
+        let mask = mask & !clear(false);
         // What a disk may be off differs by direction.
         if mask.count_ones() > SOME && disk.is_solved() {
-            return mask & !clear_of(rim, spread, disk, wide);
+            return mask & !clear(true);
         }
         mask
     }
 }
 
-/// The bits of those runs whose lines are all certainly clear of a disk, with one bound for all.
+/// The bits of those runs whose lines are all certainly clear of a disk, with one bound for all or, where
+/// it was found from three lines, one by direction.
 #[inline]
-fn clear_at_once(rim: &Rim, spread: &Eight, disk: &Pinned, wide: Option<Wide>) -> u32 {
+fn clear_of(
+    rim: &Rim,
+    spread: &Eight,
+    disk: &Pinned,
+    by_direction: bool,
+    wide: Option<Wide>,
+) -> u32 {
     #[cfg(target_arch = "x86_64")]
     if let Some(wide) = wide {
-        return wide.runs_clear_at_once(rim, spread, disk);
+        return wide.runs_clear_of(rim, spread, disk, by_direction);
     }
     let _ = wide;
-    runs_clear_at_once(rim, spread, disk)
+    runs_clear_of(rim, spread, disk, by_direction)
 }
 
 #[inline(always)]
-fn runs_clear_at_once(rim: &Rim, spread: &Eight, disk: &Pinned) -> u32 {
-    let Moved { by, more, error } = rim.moved(disk);
-    let error = error + 16.0 * U * (by.x.abs() + by.y.abs());
-    let least = more + (error + disk.bound) * (1.0 + 8.0 * U);
-    let mut low = [0.0; FAN];
-    for k in 0..FAN {
-        low[k] = rim.rest[k] + lowest(Point::new(rim.nx[k], rim.ny[k]), spread[k], by);
-    }
-    low.into_iter().enumerate().fold(0, |mask, (k, low)| mask | u32::from(low > least) << k)
-}
-
-/// The bits of those runs whose lines are all certainly clear of a disk.
-#[inline]
-fn clear_of(rim: &Rim, spread: &Eight, disk: &Pinned, wide: Option<Wide>) -> u32 {
-    #[cfg(target_arch = "x86_64")]
-    if let Some(wide) = wide {
-        return wide.runs_clear_of(rim, spread, disk);
-    }
-    let _ = wide;
-    runs_clear_of(rim, spread, disk)
-}
-
-#[inline(always)]
-fn runs_clear_of(rim: &Rim, spread: &Eight, disk: &Pinned) -> u32 {
+fn runs_clear_of(rim: &Rim, spread: &Eight, disk: &Pinned, by_direction: bool) -> u32 {
     let Moved { by, more, error } = rim.moved(disk);
     let error = error + 16.0 * U * (by.x.abs() + by.y.abs());
     let most = disk.bound;
@@ -279,7 +264,7 @@ fn runs_clear_of(rim: &Rim, spread: &Eight, disk: &Pinned) -> u32 {
     for k in 0..FAN {
         low[k] = rim.rest[k] + lowest(Point::new(rim.nx[k], rim.ny[k]), spread[k], by);
     }
-    if disk.is_solved() {
+    if by_direction && disk.is_solved() {
         for k in 0..FAN {
             let towards = disk.weighted(Point::new(rim.nx[k], rim.ny[k]), spread[k]);
             bound[k] = if towards < most { towards } else { most };
@@ -304,16 +289,9 @@ fn lowest(m: Point, spread: f64, by: Point) -> f64 {
 impl Wide {
     #[inline]
     #[allow(unsafe_code, reason = "only the machine itself tells what instructions it has")]
-    fn runs_clear_of(self, rim: &Rim, spread: &Eight, disk: &Pinned) -> u32 {
+    fn runs_clear_of(self, rim: &Rim, spread: &Eight, disk: &Pinned, by_direction: bool) -> u32 {
         // SAFETY: `self` is made only where the machine has AVX2.
-        unsafe { runs_clear_of_wide(rim, spread, disk) }
-    }
-
-    #[inline]
-    #[allow(unsafe_code, reason = "only the machine itself tells what instructions it has")]
-    fn runs_clear_at_once(self, rim: &Rim, spread: &Eight, disk: &Pinned) -> u32 {
-        // SAFETY: `self` is made only where the machine has AVX2.
-        unsafe { runs_clear_at_once_wide(rim, spread, disk) }
+        unsafe { runs_clear_of_wide(rim, spread, disk, by_direction) }
     }
 
     #[inline]
@@ -326,14 +304,8 @@ impl Wide {
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2")]
-fn runs_clear_of_wide(rim: &Rim, spread: &Eight, disk: &Pinned) -> u32 {
-    runs_clear_of(rim, spread, disk)
-}
-
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx2")]
-fn runs_clear_at_once_wide(rim: &Rim, spread: &Eight, disk: &Pinned) -> u32 {
-    runs_clear_at_once(rim, spread, disk)
+fn runs_clear_of_wide(rim: &Rim, spread: &Eight, disk: &Pinned, by_direction: bool) -> u32 {
+    runs_clear_of(rim, spread, disk, by_direction)
 }
 
 #[cfg(target_arch = "x86_64")]
