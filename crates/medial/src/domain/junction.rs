@@ -249,7 +249,7 @@ impl Sweep<'_, '_> {
     }
 
     /// Whether two overlapping edges of one polygon both have vertices, as given, where the
-    /// overlap starts and ends.
+    /// overlap starts and ends; a ring that ran back on itself may have them anywhere.
     fn overlap_is_bridge(&self, p: Point, a: u32, b: u32) -> bool {
         let (one, other) = (self.segment(a), self.segment(b));
         if one.left != p && other.left != p {

@@ -12,41 +12,6 @@ pub(super) struct Reduced {
     pub(super) straight: Vec<u32>,
 }
 
-impl Reduced {
-    /// The straight corners that still lie on the ring, in order along each edge.
-    pub(super) fn passed(&self, points: &[Point]) -> Vec<u32> {
-        if self.spikes.is_empty() {
-            return self.straight.clone();
-        }
-        // Removing a spike may leave corners of it in the list: keep those met in order between
-        // the ends of their edge.
-        let n = self.kept.len();
-        let mut passed: Vec<u32> = Vec::new();
-        for (k, &begin) in self.kept.iter().enumerate() {
-            let end = self.kept[(k + 1) % n];
-            let (from, to) = (points[begin as usize], points[end as usize]);
-            let order = from.lexicographic(to);
-            let split = |index: u32| self.straight.partition_point(|&m| m < index);
-            let between = if begin < end {
-                [&self.straight[split(begin)..split(end)], &[]]
-            } else {
-                [&self.straight[split(begin)..], &self.straight[..split(end)]]
-            };
-            let mut last = from;
-            for &m in between.into_iter().flatten() {
-                let p = points[m as usize];
-                let inside = last.lexicographic(p) == order && p.lexicographic(to) == order;
-                if inside && orient2d(from, to, p) == 0.0 {
-                    passed.push(m);
-                    last = p;
-                }
-            }
-        }
-        passed.sort_unstable();
-        passed
-    }
-}
-
 /// The corners of a ring that needs no cleaning, added to `corners`; `false`, with any number of
 /// them added, if it needs some.
 ///

@@ -61,8 +61,11 @@ impl Ring {
 pub(super) struct Cleaned {
     /// Positions in the ring as given of the vertices that are left, in order.
     pub(super) given: Vec<u32>,
-    /// Positions of the vertices merged away that still lie on the ring, in order.
+    /// Positions of the vertices merged away, in order; they lie on the ring unless it was folded.
     merged: Vec<u32>,
+    /// Whether it ran back on itself: which vertices the way back leaves on an edge depends on
+    /// where the ring starts.
+    folded: bool,
 }
 
 /// Largest number of vertices.
@@ -212,8 +215,9 @@ impl<'a> Rings<'a> {
         if let (true, Some(&index)) = (options.strict, reduced.spikes.first()) {
             return Err(DomainError::Spike { at: Place { index, ..at } });
         }
-        let merged = reduced.passed(points);
         let Reduced { kept, repeated, spikes, straight } = reduced;
+        let folded = !spikes.is_empty();
+        self.cleaned.push(Cleaned { given: kept, merged: straight.clone(), folded });
         for (repair, indices) in [
             (Repair::RepeatedPoint, repeated),
             (Repair::Spike, spikes),
@@ -223,7 +227,6 @@ impl<'a> Rings<'a> {
                 report.push(repair, at.polygon, at.ring, indices);
             }
         }
-        self.cleaned.push(Cleaned { given: kept, merged });
         Ok(self.cleaned.len() as u32 - 1)
     }
 
@@ -325,12 +328,15 @@ impl<'a> Rings<'a> {
     }
 
     /// Whether a vertex of the ring as given, merged away since, lies on the edge at `at`, which
-    /// is a point inside the edge.
+    /// is a point inside the edge; for a ring that ran back on itself, whether one may.
     pub(super) fn passes_vertex(&self, edge: u32, at: Point) -> bool {
         let ring = self.ring_of(edge);
-        let Some(Cleaned { merged, .. }) = self.cleaned.get(ring.cleaned as usize) else {
+        let Some(Cleaned { merged, folded, .. }) = self.cleaned.get(ring.cleaned as usize) else {
             return false;
         };
+        if *folded {
+            return true;
+        }
         let points = &self.polygons[ring.polygon as usize][ring.index as usize];
         let (mut begin, mut end) = (edge, self.next(edge));
         if ring.reversed {

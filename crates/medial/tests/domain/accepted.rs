@@ -210,6 +210,22 @@ fn a_bridge_that_continues_a_side_needs_its_vertex() {
 }
 
 #[test]
+fn a_folded_ring_is_repaired_wherever_it_starts() {
+    // The way to (36,40) and back comes after the spike to (37,40), or before it.
+    let mut polygon =
+        rings("0 0 99 0 99 99 0 99 / 50 20 20 50 38 40 36 40 37 40 36 40 50 20 37 40 38 40");
+    for _ in 0..2 {
+        for _ in 0..polygon[1].len() {
+            polygon[1].rotate_left(1);
+            let d = Domain::from_polygons(&[polygon.clone()], &Options::default())
+                .expect("a valid polygon");
+            assert_eq!(d.area(), 9801.0 - 110.0, "{:?}", polygon[1]);
+        }
+        polygon[1].reverse();
+    }
+}
+
+#[test]
 fn a_bridge_outside_makes_two_parts() {
     let d = domain("0 0 1 0 1 1 3 1 3 0 4 0 4 2 3 2 3 1 1 1 1 2 0 2");
     assert_eq!(d.n_components(), 2);

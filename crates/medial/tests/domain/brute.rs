@@ -10,8 +10,6 @@ pub struct Verdict {
     pub degenerate: bool,
     pub crossing: bool,
     pub overlap: bool,
-    /// An overlap that is a bridge only if vertices of a folded ring count.
-    pub doubtful: bool,
     pub wrong_side: bool,
     /// Number of pieces of the boundary that are left.
     pub pieces: usize,
@@ -138,7 +136,6 @@ pub fn verdict(rings: &[Vec<Point>]) -> Verdict {
         degenerate: false,
         crossing: false,
         overlap: false,
-        doubtful: false,
         wrong_side: false,
         pieces: 0,
         twice_area: 0,
@@ -194,8 +191,7 @@ pub fn verdict(rings: &[Vec<Point>]) -> Verdict {
                     if p == e || p == f {
                         continue;
                     }
-                    v.doubtful |= all[ring].folded;
-                    v.overlap |= !on_run(&all[ring].raw, p, e, f);
+                    v.overlap |= !all[ring].folded && !on_run(&all[ring].raw, p, e, f);
                 }
             }
         }
