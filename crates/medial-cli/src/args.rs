@@ -180,7 +180,7 @@ pub struct BranchesArgs {
     #[arg(long, value_name = "CUT", default_value = "branch")]
     pub by: Cut,
     /// Write peninsulas and bays instead
-    #[arg(long)]
+    #[arg(long, conflicts_with = "by")]
     pub limbs: bool,
     /// List the limbs that fit into those of this file, as JSON lines
     #[arg(long = "match", value_name = "FILE", conflicts_with_all = ["limbs", "to", "by"])]

@@ -83,6 +83,7 @@ fn wrong_usage_is_told_in_one_line() {
         (&["--prune", "beauty=2"][..], "no measure; known are excess"),
         (&["--prune", "chord=-2"][..], "not negative"),
         (&["--prune", "chord=2", "--max-error", "1"][..], "cannot be used with"),
+        (&["--max-error", "1", "--measures", "chord,angle,chord"][..], "has chord twice"),
     ] {
         let words = [&["prune", "-"], args].concat();
         let run = medial_with(&words, RECTANGLE);

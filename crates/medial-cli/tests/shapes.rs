@@ -143,3 +143,15 @@ fn measures_are_written_for_every_path() {
             .ends_with(",branch_length,branch_length_start,branch_length_end")
     );
 }
+
+#[test]
+fn options_without_effect_are_wrong_usage() {
+    for words in [
+        &["reconstruct", "-", "--step", "1"][..],
+        &["branches", "-", "--limbs", "--by", "primitive"][..],
+    ] {
+        let run = medial_with(words, "POLYGON ((0 0, 4 0, 4 2, 0 2, 0 0))");
+        assert_eq!((run.status, run.out.len()), (Some(2), 0), "{words:?}");
+        assert!(run.errors.contains("--"), "{}", run.errors);
+    }
+}

@@ -1,8 +1,13 @@
 //! Pairs of a peninsula and a bay that it fits into: JSON lines.
+//!
+//! The JSON Schema of a line is `schema/limb_pair.schema.json` of this crate, also in [`SCHEMA`].
 
 use crate::{Feature, Json};
 use medial::ops::LimbPair;
 use serde::Serialize;
+
+/// JSON Schema of one pair.
+pub const SCHEMA: &str = include_str!("../schema/limb_pair.schema.json");
 
 #[derive(Serialize)]
 struct Document<'a> {
@@ -47,4 +52,25 @@ pub fn write(out: &mut Vec<u8>, feature: &Feature, other: usize, of_first: bool,
     // Memory takes all that is written.
     let _ = serde_json::to_writer(&mut *out, &document);
     out.push(b'\n');
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use medial::geom::Point;
+
+    #[test]
+    fn pairs_follow_the_schema() {
+        let schema = serde_json::from_str(SCHEMA).unwrap();
+        let validator = jsonschema::validator_for(&schema).unwrap();
+        let shift = Point::new(1.0, -2.0);
+        let pair =
+            LimbPair { peninsula: 0, bay: 3, gap: 0.0, depth: 2.0, fill: 0.5, turn: -1.0, shift };
+        let mut line = Vec::new();
+        write(&mut line, &Feature::default(), 4, true, &pair);
+        let mut document = serde_json::from_slice(&line).unwrap();
+        assert!(validator.is_valid(&document), "{document}");
+        document["moves"] = "both".into();
+        assert!(!validator.is_valid(&document));
+    }
 }

@@ -1,4 +1,6 @@
 //! The location document: JSON Lines, what of the boundary of one feature is nearest to a point a line.
+//!
+//! Its JSON Schema is `schema/location.schema.json` of this crate, also in [`SCHEMA`].
 
 use crate::Feature;
 use crate::axis_document::{SiteRecord, site_record};
@@ -6,6 +8,9 @@ use medial::geom::Point;
 use medial::ops::Located;
 use serde::Serialize;
 use serde_json::value::RawValue;
+
+/// JSON Schema of one document.
+pub const SCHEMA: &str = include_str!("../schema/location.schema.json");
 
 #[derive(Serialize)]
 struct Document<'a> {
@@ -70,5 +75,20 @@ mod tests {
             {\"site\":{\"kind\":\"edge\",\"polygon\":0,\"ring\":0,\"index\":3,\"a\":[0.0,2.0],\"b\":[0.0,0.0]},\
             \"footpoint\":[0.0,0.5]}]}\n";
         assert_eq!(text, expected);
+    }
+    #[test]
+    fn documents_follow_the_schema() {
+        let schema = serde_json::from_str(SCHEMA).unwrap();
+        let validator = jsonschema::validator_for(&schema).unwrap();
+        // Inside, at a corner and outside.
+        for (x, y) in [(0.5, 0.5), (2.0, 2.0), (3.0, 1.0)] {
+            let point = Point::new(x, y);
+            let text = samples::with_voronoi(&samples::square_rings(), |voronoi| {
+                write(&Feature::default(), point, &voronoi.locate(point).unwrap())
+            });
+            let document = serde_json::from_str(&text).unwrap();
+            assert!(validator.is_valid(&document), "{text}");
+        }
+        assert!(!validator.is_valid(&serde_json::json!({ "type": "Location" })));
     }
 }

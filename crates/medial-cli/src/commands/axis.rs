@@ -218,6 +218,10 @@ fn output_format(args: &AxisArgs) -> Result<Format, Failure> {
             "--measures is for geojson, geojsonl, csv and json, not for {format}"
         ));
     }
+    let mut known = args.measures.iter().enumerate();
+    if let Some((_, twice)) = known.find(|&(k, measure)| args.measures[..k].contains(measure)) {
+        return usage(format!("--measures has {twice} twice"));
+    }
     let binary = matches!(format, Format::Png | Format::Wkb);
     if binary && file.is_none() && std::io::stdout().is_terminal() {
         return usage(format!("a terminal shows no {format}; name a file with -o"));

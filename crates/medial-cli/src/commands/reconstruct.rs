@@ -25,6 +25,10 @@ const COLUMNS: &[&str] = &["method", "error", "area"];
 
 /// `medial reconstruct`.
 pub fn run(args: &ReconstructArgs) -> Result<Status, Failure> {
+    if args.step.is_some() && args.method == Method::Exact {
+        let why = "--step is for --method tangents and disks, not for exact";
+        return Err(Failure::Usage(why.to_owned()));
+    }
     let mut run = Run::new(&args.common)?;
     let plan = Plan {
         target: &args.target,
