@@ -12,6 +12,7 @@ mod groups;
 mod hierarchy;
 mod limbs;
 mod measure;
+mod offset;
 mod outline;
 mod prominence;
 mod reconstruct;
@@ -36,7 +37,8 @@ pub use graph::Link;
 pub use hierarchy::{Hierarchy, HierarchyError, Removal, Significance, Span};
 pub use limbs::{Limb, LimbPair, limb_pairs, limbs};
 pub use measure::Measure;
-pub use outline::{Contour, Outline, OutlineError, OutlinePiece, OutlinePolygon};
+pub use offset::{OffsetError, offsets};
+pub use outline::{Contour, Outline, OutlineError, OutlinePiece, OutlinePolygon, Sense};
 pub use reconstruct::{Disk, ReconstructError, disks, polygons_of, signed_area, tangent_polygons};
 #[cfg(feature = "union")]
 pub use reconstruct::{union_of_disks, without_crossings};

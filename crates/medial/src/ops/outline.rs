@@ -42,17 +42,64 @@ pub struct Contour(pub Vec<OutlinePiece>);
 pub enum OutlinePiece {
     /// A corner of the boundary.
     Corner(Point),
-    /// An arc of a disk, counterclockwise; all of the circle if it ends where it starts.
+    /// An arc of a circle; all of it if it ends where it starts.
     Arc {
-        /// Centre of the disk.
+        /// Centre of the circle.
         centre: Point,
-        /// Radius of the disk.
+        /// Radius of the circle.
         radius: f64,
-        /// Where it leaves the boundary.
+        /// Where it starts.
         from: Point,
-        /// Where it comes back.
+        /// Where it ends.
         to: Point,
+        /// Which way it runs.
+        sense: Sense,
     },
+}
+
+/// Which way an arc runs around its centre.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Sense {
+    /// With the inside of the circle to its left.
+    Counterclockwise,
+    /// With the inside of the circle to its right.
+    Clockwise,
+}
+
+impl OutlinePiece {
+    /// Where it starts and where it ends.
+    #[must_use]
+    pub const fn ends(&self) -> [Point; 2] {
+        match *self {
+            Self::Corner(p) => [p, p],
+            Self::Arc { from, to, .. } => [from, to],
+        }
+    }
+
+    /// The angle that an arc runs through, in radians, positive counterclockwise; 0 for a corner.
+    #[must_use]
+    pub fn sweep(&self) -> f64 {
+        match *self {
+            Self::Corner(_) => 0.0,
+            Self::Arc { centre, from, to, sense: Sense::Counterclockwise, .. } => {
+                sweep(centre, from, to)
+            }
+            Self::Arc { centre, from, to, sense: Sense::Clockwise, .. } => -sweep(centre, to, from),
+        }
+    }
+
+    fn reversed(&self) -> Self {
+        match *self {
+            Self::Corner(_) => *self,
+            Self::Arc { centre, radius, from, to, sense } => {
+                let sense = match sense {
+                    Sense::Counterclockwise => Sense::Clockwise,
+                    Sense::Clockwise => Sense::Counterclockwise,
+                };
+                Self::Arc { centre, radius, from: to, to: from, sense }
+            }
+        }
+    }
 }
 
 /// Why an axis gives no outline.
@@ -125,7 +172,7 @@ impl Outline {
         Ok(Self { polygons: turns.components().into_iter().map(polygon).collect() })
     }
 
-    /// The rings of polygons no farther than a tolerance inside of it, the outer one first. A contour that
+    /// The rings of polygons no farther than a tolerance from it, the outer one first. A contour that
     /// comes back to a point of its own, where rings touch, is several rings.
     #[must_use]
     pub fn polygons(&self, tolerance: f64) -> Vec<Vec<Vec<Point>>> {
@@ -143,10 +190,16 @@ impl Outline {
     pub fn area(&self) -> f64 {
         self.polygons.iter().flat_map(|polygon| &polygon.0).map(Contour::area).sum()
     }
+
+    /// The length of all contours.
+    #[must_use]
+    pub fn length(&self) -> f64 {
+        self.polygons.iter().flat_map(|polygon| &polygon.0).map(Contour::length).sum()
+    }
 }
 
 impl Contour {
-    /// The ring of a polygon no farther than a tolerance inside of it.
+    /// The ring of a polygon no farther than a tolerance from it, with its corners on it.
     #[must_use]
     pub fn ring(&self, tolerance: f64) -> Vec<Point> {
         let mut ring: Vec<Point> = Vec::new();
@@ -158,13 +211,14 @@ impl Contour {
         for piece in &self.0 {
             match *piece {
                 OutlinePiece::Corner(p) => push(p),
-                OutlinePiece::Arc { centre, radius, from, to } => {
+                OutlinePiece::Arc { centre, radius, from, to, .. } => {
                     push(from);
-                    let sweep = sweep(centre, from, to);
+                    let sweep = piece.sweep();
                     // Half the angle of a chord whose sagitta is the tolerance.
                     let half = (1.0 - tolerance / radius).clamp(-1.0, 1.0).acos();
+                    let angle = sweep.abs();
                     let n =
-                        (sweep / (2.0 * half)).max(sweep / WIDEST).ceil().clamp(1.0, MAX_POINTS);
+                        (angle / (2.0 * half)).max(angle / WIDEST).ceil().clamp(1.0, MAX_POINTS);
                     let start = (from - centre) * (radius / (from - centre).norm());
                     for k in 1..n as u32 {
                         let (sin, cos) = (f64::from(k) * sweep / n).sin_cos();
@@ -183,22 +237,42 @@ impl Contour {
     /// The area to its left: that within if it runs counterclockwise, the negative one else.
     #[must_use]
     pub fn area(&self) -> f64 {
-        let ends = |piece: &OutlinePiece| match *piece {
-            OutlinePiece::Corner(p) => [p, p],
-            OutlinePiece::Arc { from, to, .. } => [from, to],
-        };
-        let Some(origin) = self.0.first().map(|piece| ends(piece)[0]) else { return 0.0 };
-        let points = || self.0.iter().flat_map(ends);
-        let next = points().skip(1).chain(points().take(1));
-        let chords: f64 = points().zip(next).map(|(p, q)| (p - origin).cross(q - origin)).sum();
+        let Some(origin) = self.0.first().map(|piece| piece.ends()[0]) else { return 0.0 };
+        let chord = |(p, q): (Point, Point)| (p - origin).cross(q - origin);
         let segment = |piece: &OutlinePiece| match *piece {
             OutlinePiece::Corner(_) => 0.0,
-            OutlinePiece::Arc { centre, radius, from, to } => {
-                let sweep = sweep(centre, from, to);
+            OutlinePiece::Arc { radius, .. } => {
+                let sweep = piece.sweep();
                 radius * radius * (sweep - sweep.sin())
             }
         };
-        0.5 * (chords + self.0.iter().map(segment).sum::<f64>())
+        0.5 * (self.chords().map(chord).sum::<f64>() + self.0.iter().map(segment).sum::<f64>())
+    }
+
+    /// How long it is.
+    #[must_use]
+    pub fn length(&self) -> f64 {
+        let arc = |piece: &OutlinePiece| match *piece {
+            OutlinePiece::Corner(_) => 0.0,
+            // The chord is counted too.
+            OutlinePiece::Arc { radius, from, to, .. } => {
+                radius * piece.sweep().abs() - (to - from).norm()
+            }
+        };
+        self.chords().map(|(p, q)| (q - p).norm()).sum::<f64>()
+            + self.0.iter().map(arc).sum::<f64>()
+    }
+
+    /// Segments from each end of a piece to the next end.
+    fn chords(&self) -> impl Iterator<Item = (Point, Point)> {
+        let points = || self.0.iter().flat_map(OutlinePiece::ends);
+        let next = points().skip(1).chain(points().take(1));
+        points().zip(next)
+    }
+
+    /// The same curve the other way round.
+    pub(super) fn reversed(&self) -> Self {
+        Self(self.0.iter().rev().map(OutlinePiece::reversed).collect())
     }
 }
 
@@ -243,7 +317,8 @@ fn circle(axis: &MedialAxis, keypoint: u32) -> Contour {
     let disk = axis.keypoints().at(keypoint);
     let from = disk.position + Point::new(disk.radius, 0.0);
     let (centre, radius) = (disk.position, disk.radius);
-    Contour(vec![OutlinePiece::Arc { centre, radius, from, to: from }])
+    let sense = Sense::Counterclockwise;
+    Contour(vec![OutlinePiece::Arc { centre, radius, from, to: from, sense }])
 }
 
 /// A part of an axis that is connected.
@@ -372,7 +447,8 @@ impl<'a> Turns<'a> {
                     // An arc of nothing, for a corner that is nearly straight.
                     push(&mut pieces, OutlinePiece::Corner(from));
                 } else {
-                    push(&mut pieces, OutlinePiece::Arc { centre, radius, from, to });
+                    let sense = Sense::Counterclockwise;
+                    push(&mut pieces, OutlinePiece::Arc { centre, radius, from, to, sense });
                 }
             }
         }

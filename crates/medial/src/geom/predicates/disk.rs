@@ -282,6 +282,17 @@ impl ExactDisk {
         self.compare(other, (a, b), true)
     }
 
+    /// Orders the radius against a length, which is not negative and has an exponent within ±200.
+    #[must_use]
+    pub fn compare_radius(&self, length: f64) -> Ordering {
+        let gap = self.near.radius - length;
+        // Twice the error holds the rounding of the gap.
+        if gap.abs() > 2.0 * self.near.error {
+            return gap.partial_cmp(&0.0).unwrap_or(Ordering::Equal);
+        }
+        self.in_tower(|form| form.compare_radius(length))
+    }
+
     fn compare(&self, other: &Self, (a, b): (Point, Point), across: bool) -> Ordering {
         let v = if across { (b - a).perp() } else { b - a };
         rounded(self.near.difference(&other.near, v))

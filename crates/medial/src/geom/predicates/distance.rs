@@ -1,9 +1,11 @@
-//! Which of two elements is nearer to a point.
+//! Which of two elements is nearer to a point, and how far apart two elements are.
 
 use std::cmp::Ordering;
 
+use dashu_int::IBig;
+
 use super::Element;
-use super::grid::Grid;
+use super::grid::{Grid, finest};
 use crate::geom::{Double, Point};
 
 /// Orders the distances of two elements from a point, edges taken as their supporting lines.
@@ -26,6 +28,56 @@ pub fn compare_distances(p: Point, first: Element, second: Element) -> Ordering 
         return Ordering::Equal;
     }
     in_pairs(p, first, second).unwrap_or_else(|| in_integers(p, first, second))
+}
+
+/// Orders the distance of two elements, edges taken as their supporting lines, against a length; two edges
+/// are parallel. The length is not negative, and exponents are within ±200.
+///
+/// ```
+/// use std::cmp::Ordering;
+/// use medial::geom::Point;
+/// use medial::geom::predicates::{Element, compare_gap};
+/// let corner = Element::Corner(Point::new(0.0, 0.0));
+/// // The line 3x + 4y = 5 is 1 away.
+/// let line = Element::Edge(Point::new(3.0, -1.0), Point::new(-1.0, 2.0));
+/// assert_eq!(compare_gap(corner, line, 1.0), Ordering::Equal);
+/// assert_eq!(compare_gap(corner, line, 1.0_f64.next_up()), Ordering::Less);
+/// ```
+#[must_use]
+pub fn compare_gap(first: Element, second: Element, length: f64) -> Ordering {
+    let (p, other) = match (first, second) {
+        (Element::Corner(p) | Element::Edge(p, _), Element::Edge(..)) => (p, second),
+        (Element::Edge(..), Element::Corner(p)) => (p, first),
+        (Element::Corner(p), Element::Corner(_)) => (p, second),
+    };
+    if let Some((square, error)) = squared(p, other) {
+        let length = Double::from(length);
+        let wanted = length * length;
+        let difference = (square - wanted).value();
+        if difference.abs() > error + PAIRS * wanted.value() {
+            return difference.partial_cmp(&0.0).unwrap_or(Ordering::Equal);
+        }
+    }
+    let ends = match other {
+        Element::Corner(q) => [q, q],
+        Element::Edge(a, b) => [a, b],
+    };
+    let grid = Grid::new(p, &ends).at_most(finest(Point::new(length, 0.0)));
+    let length = grid.difference(Point::default(), Point::new(length, 0.0)).x;
+    let (square, over) = fraction(grid, other);
+    square.cmp(&(&length * &length * over))
+}
+
+/// The squared distance of an element from the origin of a grid, as a fraction.
+fn fraction(grid: Grid, element: Element) -> (IBig, IBig) {
+    match element {
+        Element::Corner(q) => (grid.local(q).norm2(), IBig::ONE),
+        Element::Edge(a, b) => {
+            let d = grid.difference(a, b);
+            let cross = d.cross(&grid.local(a));
+            (&cross * &cross, d.norm2())
+        }
+    }
 }
 
 /// Bound on the error of a squared distance in pairs of doubles, as a share of the size of its terms.
@@ -79,15 +131,7 @@ fn in_integers(p: Point, first: Element, second: Element) -> Ordering {
         Element::Edge(a, b) => [a, b],
     });
     let grid = Grid::new(p, corners.as_flattened());
-    // A squared distance as a fraction.
-    let [(a, a_over), (b, b_over)] = [first, second].map(|element| match element {
-        Element::Corner(q) => (grid.local(q).norm2(), dashu_int::IBig::ONE),
-        Element::Edge(a, b) => {
-            let d = grid.difference(a, b);
-            let cross = d.cross(&grid.local(a));
-            (&cross * &cross, d.norm2())
-        }
-    });
+    let [(a, a_over), (b, b_over)] = [first, second].map(|element| fraction(grid, element));
     (a * b_over).cmp(&(b * a_over))
 }
 

@@ -87,6 +87,24 @@ impl Homogeneous {
         disk.tower.sign(&disk.linear_from(&disk.grid.local(p), &direction))
     }
 
+    /// The order of the radius against a length that is not negative.
+    pub(super) fn compare_radius(&self, length: f64) -> Ordering {
+        let ends = [Point::default(), Point::new(length, 0.0)];
+        let disk = self.on_grid_of(&ends);
+        let length = disk.grid.difference(ends[0], ends[1]).x;
+        // Squares of the radius and of the length times w, and in the first case also times n.
+        let square = |number: &Surd| disk.tower.square(number);
+        let difference = match &disk.radius {
+            Radius::Over { part, n } => {
+                square(part).sub(&square(&disk.w).scale(&(&length * &length * n)))
+            }
+            Radius::Times { part, n } => {
+                square(part).scale(n).sub(&square(&disk.w).scale(&(&length * &length)))
+            }
+        };
+        disk.tower.sign(&difference)
+    }
+
     /// The sign of `v·(c - c')` for another disk, with `v` the direction `a` → `b` after a turn.
     pub(super) fn compare(
         &self,

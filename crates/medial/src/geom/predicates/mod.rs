@@ -54,7 +54,7 @@ mod wide;
 
 pub use counts::{Counts, counts, reset_counts};
 pub use disk::ExactDisk;
-pub use distance::compare_distances;
+pub use distance::{compare_distances, compare_gap};
 pub(crate) use eighths::{Eighths, Whole};
 pub use ends::{First, Leaving, two_ends};
 pub(crate) use near::sign;

@@ -68,6 +68,12 @@ fn compare(elements: [Element; 3], t: Element, seen: &mut Seen) {
     let answer = disk.orientation(a, b);
     assert_eq!(answer, reference.orientation(a, b), "turn {a:?} {b:?} for {elements:?}");
     let (c, r) = disk.approximate();
+    for length in [r, r.next_up(), r.next_down(), 0.75 * r, 1.0] {
+        if length >= 1e-60 {
+            let answer = disk.compare_radius(length);
+            assert_eq!(answer, reference.compare_radius(length), "{length} for {elements:?}");
+        }
+    }
     let exact = [nearest(&reference.c.x), nearest(&reference.c.y), nearest(&reference.r)];
     for (rounded, exact) in [c.x, c.y, r].into_iter().zip(exact) {
         assert!(ulps(rounded, exact) <= 1, "{rounded} is not {exact} for {elements:?}");

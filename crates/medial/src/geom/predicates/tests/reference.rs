@@ -219,6 +219,10 @@ impl Disk {
         sign(&Vector::between(a, b).dot(&self.c.sub(&Vector::new(p))))
     }
 
+    pub fn compare_radius(&self, length: f64) -> Ordering {
+        sign(&(&self.r - real(length)))
+    }
+
     pub fn orientation(&self, p: Point, q: Point) -> Ordering {
         sign(&Vector::new(p).sub(&self.c).cross(&Vector::new(q).sub(&self.c)))
     }

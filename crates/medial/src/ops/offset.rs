@@ -1,0 +1,561 @@
+//! Parallel curves: what is farther from the boundary than a distance, and what is not.
+//!
+//! # Contract
+//! The axis of the interior gives the polygons of the points inside that are farther from the boundary than a
+//! distance; that of the exterior the polygons grown by it, holes included. Contours consist of segments
+//! and of arcs around reflex corners, as seen from that side, and are always closed. Which keypoints are
+//! farther than the distance, and whether a neck is, is decided exactly, once: so contours, their nesting and
+//! which of them join are those of the true shape, and only coordinates are rounded. Where two would
+//! touch, at a neck of exactly that width, they are kept apart. O(n) for each distance and n elements.
+//!
+//! # Method
+//! 1. Along a path the radius is convex, so what lies above the distance is the whole path, one part at
+//!    either end, or nothing. Whether it is the whole is told by the neck.
+//! 2. What is above is passed around as the outline of an axis is: with the boundary to the right. The
+//!    governor there gives a piece of the contour: an edge a parallel segment, a corner an arc.
+//! 3. A piece ends where the path comes down to the distance, on the axis itself; or over a corner, where
+//!    its governor leaves the one element for the next.
+//! 4. Outside, contours go on around infinity along the elements of the convex hull, from the path that
+//!    leads there to the next one.
+//! 5. Grown polygons are one where an element of each governs a path that is not above everywhere.
+
+use std::cmp::Ordering;
+use std::collections::HashMap;
+
+use super::ground::Ground;
+use super::hierarchy::HierarchyError;
+use super::outline::{Contour, Outline, OutlineError, OutlinePiece, OutlinePolygon, Sense, Turns};
+use crate::axis::{Accuracy, KeypointKind, MedialAxis, Path, Side};
+use crate::domain::{Complement, Domain, Site};
+use crate::engine::exterior_frame;
+use crate::geom::predicates::{Element, ExactDisk, compare_gap};
+use crate::geom::{Point, Rect};
+
+/// Why there is no offset.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum OffsetError {
+    /// Distances are not negative, finite, and zero or of a usual size.
+    #[error("{distance} is no distance of an offset; give one from 0 on, of a usual size")]
+    Distance {
+        /// What was given.
+        distance: f64,
+    },
+    /// The exterior axis is cut off too near to the polygons.
+    #[error("the exterior axis is cut off at {margin}, before the distance {distance}")]
+    Frame {
+        /// The distance that was asked for.
+        distance: f64,
+        /// How far from the boundary the axis is cut off.
+        margin: f64,
+    },
+    /// The axis is pruned, sampled or of another domain.
+    #[error(transparent)]
+    Axis(#[from] HierarchyError),
+    /// Its graph is not that of an axis.
+    #[error(transparent)]
+    Outline(#[from] OutlineError),
+}
+
+/// The least and the largest distance but zero: as for coordinates.
+const DISTANCES: [f64; 2] =
+    [f64::from_bits((1023 - 200) << 52), f64::from_bits((1023 + 200) << 52)];
+
+/// How far, as a share, a radius in doubles may be from the true one at most.
+///
+/// Within this nothing is decided by it.
+const DOUBT: f64 = 1e-12;
+
+/// How near to the line through two corners, or to the foot of one, as a share of the coordinates, a keypoint
+/// in doubles is not trusted to be on the side where it seems to be.
+const MIDDLE: f64 = 1e-12;
+
+/// The least angle of an arc that cannot be: around a corner it is less than a half turn, so this one is
+/// nothing, the wrong way round.
+const TOO_WIDE: f64 = 3.5;
+
+/// The parallel curves of the polygons at some distances, on the side of an axis: inside the polygons
+/// of all points that are farther from the boundary, outside those of all that are not.
+///
+/// Grown polygons are ordered by the components of the domain.
+///
+/// ```
+/// use medial::axis::Engine;
+/// use medial::domain::{Domain, Options};
+/// use medial::engine::{exterior, path_tracing};
+/// use medial::geom::Point;
+/// use medial::ops::offsets;
+/// use std::f64::consts::PI;
+///
+/// let ring = [(0., 0.), (6., 0.), (6., 2.), (0., 2.)].map(|(x, y)| Point::new(x, y));
+/// let domain = Domain::from_polygons(&[vec![ring.to_vec()]], &Options::default())?;
+/// let inward = offsets(&domain, &path_tracing(&domain)?, &[0.5, 1.0])?;
+/// assert_eq!((inward[0].area(), inward[1].area()), (5.0, 0.0));
+/// let outside = exterior(&domain, Engine::PathTracing, None, &Default::default())?;
+/// let outward = offsets(&domain, &outside, &[1.0])?;
+/// assert!((outward[0].area() - (12.0 + 16.0 + PI)).abs() < 1e-13);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// If a distance is negative or not of a usual size; if the axis is not complete and exact, or not of this
+/// domain; or if it is that of the exterior and cut off before the largest distance.
+pub fn offsets(
+    domain: &Domain,
+    axis: &MedialAxis,
+    distances: &[f64],
+) -> Result<Vec<Outline>, OffsetError> {
+    let usual = |d: f64| d == 0.0 || (DISTANCES[0]..=DISTANCES[1]).contains(&d);
+    if let Some(&distance) = distances.iter().find(|&&d| !usual(d)) {
+        return Err(OffsetError::Distance { distance });
+    }
+    let shape = Shape::new(domain, axis)?;
+    if let Some(&distance) = distances.iter().find(|&&d| d >= shape.margin) {
+        return Err(OffsetError::Frame { distance, margin: shape.margin });
+    }
+    let offset = |&distance: &f64| Level::new(&shape, distance).outline();
+    distances.iter().map(offset).collect()
+}
+
+/// An axis, ready to be cut at any distance.
+struct Shape<'a> {
+    axis: &'a MedialAxis,
+    ground: Ground<'a>,
+    turns: Turns<'a>,
+    /// The element behind each site.
+    governors: Vec<Site>,
+    /// The least radius along each path.
+    least: Vec<f64>,
+    horizon: Horizon,
+    /// Outside, the component of the domain of each edge of the ground.
+    components: Vec<u32>,
+    n_components: usize,
+    /// The least radius where paths are cut off; infinite if none is.
+    margin: f64,
+}
+
+/// What is seen from infinity.
+#[derive(Default)]
+struct Horizon {
+    /// For each corner at which a path comes in from infinity, with its cell to the right, that path as
+    /// passed from there.
+    inwards: HashMap<Site, u32>,
+    /// A walk that no path leads to from infinity, if it is the only one.
+    convex: Option<u32>,
+}
+
+impl<'a> Shape<'a> {
+    fn new(domain: &'a Domain, axis: &'a MedialAxis) -> Result<Self, OffsetError> {
+        let keypoints = axis.keypoints();
+        let is_cut = axis.side == Side::Exterior
+            && keypoints.iter().all(|keypoint| keypoint.kind != KeypointKind::Tip);
+        if !(axis.complete || is_cut) || axis.accuracy != Accuracy::Exact {
+            return Err(HierarchyError::Incomplete.into());
+        }
+        let no_outside = HierarchyError::NoOutside;
+        let frame = match axis.side {
+            Side::Interior => Rect::EMPTY,
+            Side::Exterior => exterior_frame(domain, None).map_err(|_| no_outside.clone())?,
+        };
+        let ground = Ground::new(domain, axis.side, &frame).ok_or(no_outside)?;
+        let governors =
+            ground.governors(axis).map_err(|name| HierarchyError::UnknownSite { name })?;
+        let turns = Turns::new(axis)?;
+        let clipped = |k: &u32| keypoints.at(*k).kind == KeypointKind::Clipped;
+        let ends: Vec<u32> = (0..keypoints.len() as u32).filter(clipped).collect();
+        let margin = ends.iter().map(|&k| keypoints.at(k).radius).fold(f64::INFINITY, f64::min);
+        let mut horizon = Horizon::default();
+        for &dart in ends.iter().flat_map(|&k| turns.leaving.of(k)) {
+            horizon.inwards.insert(governors[turns.path(dart).right as usize], dart);
+        }
+        let mut components = Vec::new();
+        if let Ground::Outside(outside) = &ground {
+            if ends.is_empty() {
+                let edges = outside.horizon().edges;
+                horizon.convex = edges.first().map(|&edge| outside.domain().edge(edge).walk);
+            }
+            components = components_outside(domain, outside);
+        }
+        let least = axis.paths().iter().map(|path| axis.curve(&path).radius_min()).collect();
+        let n_components = domain.n_components();
+        Ok(Self {
+            axis,
+            ground,
+            turns,
+            governors,
+            least,
+            horizon,
+            components,
+            n_components,
+            margin,
+        })
+    }
+
+    fn governor(&self, site: u32) -> Site {
+        self.governors[site as usize]
+    }
+
+    /// The element that follows along the boundary.
+    fn after(&self, element: Site) -> Site {
+        if !element.is_edge() {
+            return Site::edge(element.index());
+        }
+        let next = self.ground.domain().edge(element.index()).next;
+        if self.ground.has_cell(Site::corner(next)) { Site::corner(next) } else { Site::edge(next) }
+    }
+
+    /// The component of the domain that an element outside belongs to.
+    fn component(&self, element: Site) -> u32 {
+        // Where walks meet, a corner is that of the edge at its start; there they are one at any distance.
+        self.components[element.index() as usize]
+    }
+
+    /// An element as predicates see it.
+    fn element(&self, element: Site) -> Element {
+        self.ground.domain().element(element)
+    }
+
+    /// The disk of a keypoint; `None` for one that no three elements govern.
+    fn disk(&self, keypoint: u32) -> Option<ExactDisk> {
+        /// Threes that are tried; nearly always the first one is a disk.
+        const TRIED: usize = 64;
+        let list = self.axis.governors(keypoint);
+        let mut elements: Vec<Element> =
+            list.iter().map(|&g| self.element(self.governor(g))).collect();
+        // Where a straight joint governs, its edges are on one line.
+        for k in (0..list.len()).rev() {
+            let [one, next] = [k, (k + 1) % list.len()].map(|k| self.governor(list[k]));
+            if let (true, Element::Edge(start, _)) = (one.is_edge(), self.element(next))
+                && self.after(one) == next
+            {
+                elements.insert(k + 1, Element::Corner(start));
+            }
+        }
+        let n = elements.len();
+        let threes = (0..n)
+            .flat_map(|i| (i + 1..n).flat_map(move |j| (j + 1..n).map(move |k| [i, j, k])))
+            .take(TRIED);
+        threes.map(|three| three.map(|k| elements[k])).find_map(ExactDisk::new)
+    }
+
+    /// Whether a keypoint is farther from the boundary than a distance.
+    fn is_farther(&self, keypoint: u32, distance: f64) -> bool {
+        let radius = self.axis.keypoints().at(keypoint).radius;
+        if (radius - distance).abs() > DOUBT * radius || radius == 0.0 {
+            return radius > distance;
+        }
+        match self.disk(keypoint) {
+            Some(disk) => disk.compare_radius(distance).is_gt(),
+            None => radius > distance,
+        }
+    }
+
+    /// Whether all of a path is farther than a distance, if its ends are.
+    fn is_whole(&self, number: u32, path: &Path, distance: f64) -> bool {
+        let least = self.least[number as usize];
+        if least > distance * (1.0 + DOUBT) {
+            return true;
+        }
+        let [left, right] = [path.left, path.right].map(|site| self.governor(site));
+        if left.is_edge() && right.is_edge() {
+            return true;
+        }
+        // Twice a double is one.
+        let [one, other] = [left, right].map(|site| self.element(site));
+        compare_gap(one, other, 2.0 * distance).is_gt() || !self.has_neck(path, one, other)
+    }
+
+    /// Whether the place where its governors are nearest to each other lies inside a path: where a parabola
+    /// passes the foot of its focus, or a line between two corners that between them.
+    fn has_neck(&self, path: &Path, one: Element, other: Element) -> bool {
+        let past = |keypoint: u32| {
+            let at = self.axis.keypoints().at(keypoint).position;
+            let (a, b, p, is_corners) = match (one, other) {
+                (Element::Corner(p), Element::Corner(q)) => (p, q, p, true),
+                (Element::Corner(p), Element::Edge(a, b))
+                | (Element::Edge(a, b), Element::Corner(p)) => (a, b, p, false),
+                (Element::Edge(..), Element::Edge(..)) => return Ordering::Equal,
+            };
+            let way = if is_corners { (b - a).perp() } else { b - a };
+            let product = way.dot(at - p);
+            let size = at.x.abs() + at.y.abs() + p.x.abs() + p.y.abs();
+            let known = product.partial_cmp(&0.0).unwrap_or(Ordering::Equal);
+            if product.abs() > MIDDLE * size * way.norm() {
+                return known;
+            }
+            match self.disk(keypoint) {
+                Some(disk) if is_corners => disk.front(a, b),
+                Some(disk) => disk.along(a, b, p),
+                None => known,
+            }
+        };
+        [Ordering::Less, Ordering::Greater].contains(&past(path.from))
+            && past(path.from) == past(path.to).reverse()
+    }
+}
+
+/// The component of the domain to which each edge of its outside belongs; for those of the frame the first.
+fn components_outside(domain: &Domain, outside: &Complement) -> Vec<u32> {
+    let component = |edge: u32| {
+        let inner = outside.inner_site(Site::edge(edge))?;
+        Some(domain.walks()[domain.edge(inner.index()).walk as usize].component)
+    };
+    (0..outside.domain().edges().len() as u32).map(|edge| component(edge).unwrap_or(0)).collect()
+}
+
+/// A shape at a distance.
+struct Level<'s, 'a> {
+    shape: &'s Shape<'a>,
+    distance: f64,
+    /// Which keypoints are farther.
+    farther: Vec<bool>,
+    /// What has been passed.
+    is_passed: Vec<bool>,
+}
+
+/// Where a contour leaves an element for another one.
+struct Break {
+    at: Point,
+    after: Site,
+}
+
+impl<'s, 'a> Level<'s, 'a> {
+    fn new(shape: &'s Shape<'a>, distance: f64) -> Self {
+        let n = shape.axis.keypoints().len() as u32;
+        let farther = (0..n).map(|k| shape.is_farther(k, distance)).collect();
+        let is_passed = vec![false; 2 * shape.axis.paths().len()];
+        Self { shape, distance, farther, is_passed }
+    }
+
+    fn outline(mut self) -> Result<Outline, OffsetError> {
+        match self.shape.axis.side {
+            Side::Interior => self.inside(),
+            Side::Exterior => self.outside(),
+        }
+    }
+
+    /// What is farther: a polygon for each part of the axis that is connected.
+    fn inside(&mut self) -> Result<Outline, OffsetError> {
+        let shape = self.shape;
+        let mut is_met = vec![false; self.farther.len()];
+        let mut polygons = Vec::new();
+        for start in 0..self.farther.len() as u32 {
+            if !self.farther[start as usize] || std::mem::replace(&mut is_met[start as usize], true)
+            {
+                continue;
+            }
+            let (mut contours, mut open) = (Vec::new(), vec![start]);
+            while let Some(keypoint) = open.pop() {
+                for &dart in shape.turns.leaving.of(keypoint) {
+                    let to = shape.turns.path(dart).to;
+                    if self.is_kept(dart) && !std::mem::replace(&mut is_met[to as usize], true) {
+                        open.push(to);
+                    }
+                    if !self.is_passed[dart as usize] {
+                        contours.push(self.contour(dart)?.0);
+                    }
+                }
+            }
+            polygons.push(outer_first(contours));
+        }
+        Ok(Outline { polygons })
+    }
+
+    /// What is not farther than the distance outside.
+    fn outside(&mut self) -> Result<Outline, OffsetError> {
+        let shape = self.shape;
+        let mut parents: Vec<u32> = (0..shape.n_components as u32).collect();
+        for (number, path) in (0..).zip(shape.axis.paths()) {
+            let [left, right] = [path.left, path.right].map(|s| shape.governor(s));
+            let [left, right] = [left, right].map(|s| shape.component(s));
+            if left != right && !self.is_kept(2 * number) {
+                join(&mut parents, left, right);
+            }
+        }
+        let mut contours: Vec<Vec<Contour>> = vec![Vec::new(); shape.n_components];
+        let mut add = |(contour, of): (Contour, Site)| {
+            let component = root(&mut parents, shape.component(of));
+            contours[component as usize].push(contour.reversed());
+        };
+        if let Some(walk) = shape.horizon.convex {
+            add(self.around(walk));
+        }
+        for keypoint in 0..self.farther.len() as u32 {
+            if self.farther[keypoint as usize] {
+                for &dart in shape.turns.leaving.of(keypoint) {
+                    if !self.is_passed[dart as usize] {
+                        add(self.contour(dart)?);
+                    }
+                }
+            }
+        }
+        contours.retain(|contours| !contours.is_empty());
+        Ok(Outline { polygons: contours.into_iter().map(outer_first).collect() })
+    }
+
+    /// Whether all of a path is farther.
+    fn is_kept(&self, dart: u32) -> bool {
+        let path = self.shape.axis.paths().at(dart / 2);
+        self.farther[path.from as usize]
+            && self.farther[path.to as usize]
+            && self.shape.is_whole(dart / 2, &path, self.distance)
+    }
+
+    /// Where a path whose start is farther comes down to the distance first, if it does.
+    fn cut(&self, dart: u32) -> Option<Point> {
+        if self.is_kept(dart) {
+            return None;
+        }
+        let path = &self.shape.turns.path(dart);
+        let curve = self.shape.axis.curve(path);
+        // The end up to which the radius falls. Rounded, it may reach the distance at an end only.
+        let neck = curve.neck().filter(|_| self.farther[path.to as usize]);
+        let end = neck.unwrap_or(1.0);
+        let u = if curve.radius_from() <= self.distance {
+            0.0
+        } else {
+            let off = |u: f64| (curve.radius_at(u) - self.distance).abs();
+            let [first, _] = curve.parameters_at_radius(self.distance);
+            let nearest = if off(0.0) < off(end) { 0.0 } else { end };
+            first.filter(|&u| u <= end).unwrap_or(nearest)
+        };
+        Some(curve.point_at(u))
+    }
+
+    /// The contour to the right of a path and of what follows, and an element on it.
+    fn contour(&mut self, start: u32) -> Result<(Contour, Site), OffsetError> {
+        let shape = self.shape;
+        let right = |dart: u32| shape.governor(shape.turns.path(dart).right);
+        let mut breaks = Vec::new();
+        let mut dart = start;
+        loop {
+            self.is_passed[dart as usize] = true;
+            // Down to the distance and back again.
+            if let Some(at) = self.cut(dart) {
+                dart ^= 1;
+                self.is_passed[dart as usize] = true;
+                breaks.push(Break { at, after: right(dart) });
+            }
+            let to = shape.turns.path(dart).to;
+            dart = if shape.axis.keypoints().at(to).kind == KeypointKind::Clipped {
+                self.turn_at_infinity(dart, &mut breaks)?
+            } else {
+                self.turn(dart, &mut breaks)?
+            };
+            if dart == start {
+                return Ok((self.joined(&breaks), right(start)));
+            }
+        }
+    }
+
+    /// What follows a path at its end.
+    fn turn(&self, dart: u32, breaks: &mut Vec<Break>) -> Result<u32, OffsetError> {
+        let shape = self.shape;
+        let next = shape.turns.next(dart);
+        let path = shape.turns.path(dart);
+        let [before, after] = [path, shape.turns.path(next)].map(|path| shape.governor(path.right));
+        if before != after && self.pass(before, breaks) != after {
+            return Err(disordered(path.to));
+        }
+        Ok(next)
+    }
+
+    /// What comes in from infinity after a path that goes there.
+    fn turn_at_infinity(&self, dart: u32, breaks: &mut Vec<Break>) -> Result<u32, OffsetError> {
+        let path = self.shape.turns.path(dart);
+        let start = self.shape.governor(path.right);
+        let mut element = start;
+        loop {
+            if let Some(&inwards) = self.shape.horizon.inwards.get(&element) {
+                return Ok(inwards);
+            }
+            element = self.pass(element, breaks);
+            if element == start {
+                return Err(disordered(path.to));
+            }
+        }
+    }
+
+    /// Goes on from an element to the next one along the boundary.
+    fn pass(&self, element: Site, breaks: &mut Vec<Break>) -> Site {
+        let after = self.shape.after(element);
+        let domain = self.shape.ground.domain();
+        let edge = domain.edge(if element.is_edge() { element } else { after }.index());
+        let corner = domain.edge(after.index()).start;
+        breaks.push(Break { at: corner + edge.direction.perp() * self.distance, after });
+        after
+    }
+
+    /// The contour around a walk that no path leads to.
+    fn around(&self, walk: u32) -> (Contour, Site) {
+        let start = Site::edge(self.shape.ground.domain().walks()[walk as usize].first);
+        let (mut element, mut breaks) = (start, Vec::new());
+        loop {
+            element = self.pass(element, &mut breaks);
+            if element == start {
+                return (self.joined(&breaks), start);
+            }
+        }
+    }
+
+    /// The contour from one break to the next, all around.
+    fn joined(&self, breaks: &[Break]) -> Contour {
+        let mut pieces: Vec<OutlinePiece> = Vec::with_capacity(2 * breaks.len());
+        let mut push = |piece: OutlinePiece| {
+            if pieces.last() != Some(&piece) {
+                pieces.push(piece);
+            }
+        };
+        let next = breaks.iter().cycle().skip(1);
+        for (&Break { at: from, after: site }, &Break { at: to, .. }) in breaks.iter().zip(next) {
+            let centre = self.shape.ground.domain().edge(site.index()).start;
+            let arc = OutlinePiece::Arc {
+                centre,
+                radius: self.distance,
+                from,
+                to,
+                sense: Sense::Clockwise,
+            };
+            if !site.is_edge() && from != to && arc.sweep().abs() < TOO_WIDE {
+                push(arc);
+            } else {
+                push(OutlinePiece::Corner(from));
+                push(OutlinePiece::Corner(to));
+            }
+        }
+        if pieces.len() > 1 && pieces.first() == pieces.last() {
+            pieces.pop();
+        }
+        Contour(pieces)
+    }
+}
+
+fn disordered(keypoint: u32) -> OffsetError {
+    OutlineError::Disordered { keypoint }.into()
+}
+
+/// A polygon of its contours: the outer one, which has the interior inside, comes first.
+fn outer_first(mut contours: Vec<Contour>) -> OutlinePolygon {
+    let areas: Vec<f64> = contours.iter().map(Contour::area).collect();
+    let outer = (0..areas.len()).max_by(|&a, &b| areas[a].total_cmp(&areas[b]));
+    if let Some(outer) = outer {
+        contours.swap(0, outer);
+    }
+    OutlinePolygon(contours)
+}
+
+/// The root of a tree of components.
+fn root(parents: &mut [u32], component: u32) -> u32 {
+    let mut at = component;
+    while parents[at as usize] != at {
+        parents[at as usize] = parents[parents[at as usize] as usize];
+        at = parents[at as usize];
+    }
+    at
+}
+
+/// Makes two components one; the least of them is the root.
+fn join(parents: &mut [u32], one: u32, other: u32) {
+    let [one, other] = [one, other].map(|component| root(parents, component));
+    parents[one.max(other) as usize] = one.min(other);
+}
