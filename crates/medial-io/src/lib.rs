@@ -28,6 +28,7 @@ mod json;
 mod number;
 mod path;
 mod stream;
+mod stroke;
 mod text;
 
 #[cfg(test)]
@@ -39,6 +40,7 @@ pub mod geojson;
 pub mod limb_document;
 pub mod location_document;
 pub mod maxis;
+pub mod offset_document;
 pub mod png;
 pub mod record;
 pub mod rings;

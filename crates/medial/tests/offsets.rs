@@ -8,7 +8,7 @@ use medial::axis::{Engine, MedialAxis, Side};
 use medial::domain::{self, Domain};
 use medial::engine::{Options, exterior, interior, path_tracing};
 use medial::geom::Point;
-use medial::ops::{Hierarchy, Measure, OffsetError, Outline, OutlinePiece, offsets};
+use medial::ops::{Hierarchy, Measure, OffsetError, Outline, OutlinePiece, offset_margin, offsets};
 use support::random::{self, Family, Ground, Random};
 use support::shapes;
 
@@ -16,7 +16,7 @@ const RECTANGLE: &str = "POLYGON ((0 0, 6 0, 6 2, 0 2, 0 0))";
 
 /// The exterior axis, cut off beyond the largest distance.
 fn outside(domain: &Domain, most: f64) -> MedialAxis {
-    let margin = 2.0 * most + 1e-3 * domain.area().sqrt();
+    let margin = offset_margin(domain, most);
     exterior(domain, Engine::PathTracing, Some(margin), &Options::default()).unwrap()
 }
 
@@ -121,6 +121,17 @@ fn polygons_grow_together_where_they_meet() {
     assert_eq!(contours(&outward(&nested, 1.0)), [2, 1]);
     assert_eq!(contours(&outward(&nested, 1.5)), [5]);
     assert_eq!(contours(&outward(&nested, 3.0)), [1]);
+    // The neck of a pocket lies on the only path to infinity.
+    let pocket = shapes::wkt(
+        "MULTIPOLYGON (((2 3, 3 2, 3 3, 2 3)), ((3 1, 2 0, 3 0, 3 1)), ((2 0, 2 2, 1 1, 0 1, 1 0, 2 0)), \
+         ((1 3, 0 2, 0 1, 1 2, 1 3)), ((2 2, 2 3, 1 3, 2 2)))",
+    );
+    assert_eq!(contours(&outward(&pocket, 0.5_f64.next_down())), [1]);
+    assert_eq!(contours(&outward(&pocket, 0.5)), [2]);
+    // The edge beside a small neighbour is nearest on both of its sides.
+    let beside = shapes::wkt("MULTIPOLYGON (((0 0, 9 0, 9 -4, 0 0)), ((4 2, 5 2, 5 3, 4 2)))");
+    assert_eq!(contours(&outward(&beside, 0.5)), [1, 1]);
+    assert_eq!(contours(&outward(&beside, 1.5)), [1]);
     // Touching at a corner they are one at any distance.
     let touching =
         shapes::wkt("MULTIPOLYGON (((0 0, 2 0, 2 2, 0 2, 0 0)), ((2 2, 4 2, 4 4, 2 4, 2 2)))");

@@ -6,6 +6,7 @@ pub mod compare;
 pub mod compress;
 mod features;
 pub mod locate;
+pub mod offset;
 pub mod reconstruct;
 mod records;
 mod sink;

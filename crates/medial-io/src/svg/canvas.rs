@@ -1,9 +1,11 @@
 use super::Lettering;
 use super::frame::Frame;
 use super::lettering::{strokes, width};
+use crate::stroke::Stroke;
 use crate::text::escaped;
 use medial::axis::Curve;
 use medial::geom::Point;
+use medial::ops::Sense;
 use std::fmt::Write as _;
 
 /// The text of a picture while it is drawn, in picture coordinates throughout.
@@ -143,6 +145,31 @@ impl<'a> Data<'a> {
             self.verb(if k == 0 { 'M' } else { 'L' }, &[p]);
         }
         self.text.push('Z');
+    }
+
+    /// A closed contour, its arcs as arcs.
+    pub fn contour(&mut self, strokes: &[Stroke]) {
+        for (k, stroke) in strokes.iter().enumerate() {
+            let (Stroke::Line { from, .. } | Stroke::Arc { from, .. }) = *stroke;
+            if k == 0 {
+                self.move_to(from);
+            }
+            match *stroke {
+                Stroke::Line { to, .. } => self.line_to(to),
+                Stroke::Arc { to, radius, sense, angle, .. } => {
+                    let radius = number(self.frame.length(radius));
+                    let large = u8::from(angle > std::f64::consts::PI);
+                    // Pictures have y down.
+                    let sweep = u8::from(sense == Sense::Clockwise);
+                    let p = self.frame.map(to);
+                    let [x, y] = [p.x, p.y].map(number);
+                    let _ = write!(self.text, "A{radius} {radius} 0 {large} {sweep} {x} {y}");
+                }
+            }
+        }
+        if !strokes.is_empty() {
+            self.text.push('Z');
+        }
     }
 
     /// A dot, as large as the stroke with round caps.

@@ -15,7 +15,7 @@ pub(super) fn draw(canvas: &mut Canvas, scenes: &[Scene], options: &Options, rad
     title(canvas, options);
     if options.legend {
         let y = canvas.frame.legend_y;
-        radius_bar(canvas, Point::new(left, y), radius_max);
+        bar(canvas, Point::new(left, y), radius_max, "radius");
         counts(canvas, Point::new(right, y), scenes, options.keypoints);
     }
 }
@@ -28,7 +28,8 @@ pub(super) fn title(canvas: &mut Canvas, options: &Options) {
     }
 }
 
-fn radius_bar(canvas: &mut Canvas, at: Point, radius_max: f64) {
+/// The colours of what goes from 0 to a largest value.
+pub(super) fn bar(canvas: &mut Canvas, at: Point, most: f64, what: &str) {
     canvas.open("legend", "");
     let step = BAR / STEPS as f64;
     for k in 0..STEPS {
@@ -39,9 +40,9 @@ fn radius_bar(canvas: &mut Canvas, at: Point, radius_max: f64) {
     }
     for (share, anchor) in [(0.0, Anchor::Start), (0.5, Anchor::Middle), (1.0, Anchor::End)] {
         let place = at + Point::new(BAR * share, 22.0);
-        canvas.text(place, 12.0, anchor, QUIET, &rounded(radius_max * share));
+        canvas.text(place, 12.0, anchor, QUIET, &rounded(most * share));
     }
-    canvas.text(at + Point::new(0.0, 38.0), 12.0, Anchor::Start, QUIET, "radius");
+    canvas.text(at + Point::new(0.0, 38.0), 12.0, Anchor::Start, QUIET, what);
     canvas.close();
 }
 

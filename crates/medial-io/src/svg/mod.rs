@@ -11,10 +11,12 @@ mod frame;
 mod layers;
 mod legend;
 mod lettering;
+mod offset;
 mod palette;
 mod voronoi;
 
 pub use centerline::{MainLines, write_lines};
+pub use offset::{Parallels, write_offsets};
 pub use voronoi::{Diagram, write_diagrams};
 
 use crate::text::escaped;

@@ -37,7 +37,7 @@ pub use graph::Link;
 pub use hierarchy::{Hierarchy, HierarchyError, Removal, Significance, Span};
 pub use limbs::{Limb, LimbPair, limb_pairs, limbs};
 pub use measure::Measure;
-pub use offset::{OffsetError, offsets};
+pub use offset::{OffsetError, offset_margin, offsets};
 pub use outline::{Contour, Outline, OutlineError, OutlinePiece, OutlinePolygon, Sense};
 pub use reconstruct::{Disk, ReconstructError, disks, polygons_of, signed_area, tangent_polygons};
 #[cfg(feature = "union")]

@@ -15,8 +15,8 @@
 //!    governor there gives a piece of the contour: an edge a parallel segment, a corner an arc.
 //! 3. A piece ends where the path comes down to the distance, on the axis itself; or over a corner, where
 //!    its governor leaves the one element for the next.
-//! 4. Outside, contours go on around infinity along the elements of the convex hull, from the path that
-//!    leads there to the next one.
+//! 4. Outside, contours go on around infinity, clockwise, along the elements between the path that leads
+//!    there and the next one.
 //! 5. Grown polygons are one where an element of each governs a path that is not above everywhere.
 
 use std::cmp::Ordering;
@@ -29,7 +29,7 @@ use crate::axis::{Accuracy, KeypointKind, MedialAxis, Path, Side};
 use crate::domain::{Complement, Domain, Site};
 use crate::engine::exterior_frame;
 use crate::geom::predicates::{Element, ExactDisk, compare_gap};
-use crate::geom::{Point, Rect};
+use crate::geom::{Point, Rect, orient2d};
 
 /// Why there is no offset.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -77,21 +77,23 @@ const TOO_WIDE: f64 = 3.5;
 /// The parallel curves of the polygons at some distances, on the side of an axis: inside the polygons
 /// of all points that are farther from the boundary, outside those of all that are not.
 ///
-/// Grown polygons are ordered by the components of the domain.
+/// Contours begin at their least point by x, then y; polygons, and the holes of each, are in the order of
+/// these.
 ///
 /// ```
 /// use medial::axis::Engine;
 /// use medial::domain::{Domain, Options};
 /// use medial::engine::{exterior, path_tracing};
 /// use medial::geom::Point;
-/// use medial::ops::offsets;
+/// use medial::ops::{offset_margin, offsets};
 /// use std::f64::consts::PI;
 ///
 /// let ring = [(0., 0.), (6., 0.), (6., 2.), (0., 2.)].map(|(x, y)| Point::new(x, y));
 /// let domain = Domain::from_polygons(&[vec![ring.to_vec()]], &Options::default())?;
 /// let inward = offsets(&domain, &path_tracing(&domain)?, &[0.5, 1.0])?;
 /// assert_eq!((inward[0].area(), inward[1].area()), (5.0, 0.0));
-/// let outside = exterior(&domain, Engine::PathTracing, None, &Default::default())?;
+/// let margin = offset_margin(&domain, 1.0);
+/// let outside = exterior(&domain, Engine::PathTracing, Some(margin), &Default::default())?;
 /// let outward = offsets(&domain, &outside, &[1.0])?;
 /// assert!((outward[0].area() - (12.0 + 16.0 + PI)).abs() < 1e-13);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -117,6 +119,17 @@ pub fn offsets(
     distances.iter().map(offset).collect()
 }
 
+/// A margin with which an exterior axis serves for offsets up to a distance: how far from the box of the
+/// polygons it has to be cut off.
+#[must_use]
+pub fn offset_margin(domain: &Domain, distance: f64) -> f64 {
+    /// As a share of the distance.
+    const BEYOND: f64 = 1.5;
+    let bounds = domain.edges().iter().fold(Rect::EMPTY, |all, edge| all.with(edge.start));
+    let size = bounds.max - bounds.min;
+    size.x.max(size.y).max(BEYOND * distance)
+}
+
 /// An axis, ready to be cut at any distance.
 struct Shape<'a> {
     axis: &'a MedialAxis,
@@ -137,9 +150,8 @@ struct Shape<'a> {
 /// What is seen from infinity.
 #[derive(Default)]
 struct Horizon {
-    /// For each corner at which a path comes in from infinity, with its cell to the right, that path as
-    /// passed from there.
-    inwards: HashMap<Site, u32>,
+    /// For each keypoint where a path goes to infinity the next path clockwise, as passed from there.
+    inwards: HashMap<u32, u32>,
     /// A walk that no path leads to from infinity, if it is the only one.
     convex: Option<u32>,
 }
@@ -165,8 +177,10 @@ impl<'a> Shape<'a> {
         let ends: Vec<u32> = (0..keypoints.len() as u32).filter(clipped).collect();
         let margin = ends.iter().map(|&k| keypoints.at(k).radius).fold(f64::INFINITY, f64::min);
         let mut horizon = Horizon::default();
-        for &dart in ends.iter().flat_map(|&k| turns.leaving.of(k)) {
-            horizon.inwards.insert(governors[turns.path(dart).right as usize], dart);
+        let order = clockwise(domain, &ends, axis, &turns);
+        for (k, &end) in order.iter().enumerate() {
+            let next = order[if k + 1 < order.len() { k + 1 } else { 0 }];
+            horizon.inwards.extend(turns.leaving.of(next).first().map(|&dart| (end, dart)));
         }
         let mut components = Vec::new();
         if let Ground::Outside(outside) = &ground {
@@ -294,6 +308,32 @@ impl<'a> Shape<'a> {
     }
 }
 
+/// Keypoints where paths are cut off, all on a rectangle around a domain, in clockwise order.
+fn clockwise(domain: &Domain, ends: &[u32], axis: &MedialAxis, turns: &Turns<'_>) -> Vec<u32> {
+    let bounds = domain.edges().iter().fold(Rect::EMPTY, |all, edge| all.with(edge.start));
+    let centre = bounds.min + (bounds.max - bounds.min) * 0.5;
+    let place = |k: u32| axis.keypoints().at(k).position;
+    let is_left = |p: Point| p.x < centre.x || (p.x == centre.x && p.y < centre.y);
+    let mut order = ends.to_vec();
+    order.sort_by(|&j, &k| {
+        let (p, q) = (place(j), place(k));
+        let turn = orient2d(centre, p, q).partial_cmp(&0.0).unwrap_or(Ordering::Equal);
+        is_left(p).cmp(&is_left(q)).then(turn)
+    });
+    // Where a cell between two of them is too thin for doubles, it says which is the first.
+    let right = |k: u32, inwards: bool| {
+        let path = turns.leaving.of(k).first().map(|&dart| turns.path(dart));
+        path.map(|path| if inwards { path.right } else { path.left })
+    };
+    for k in 1..order.len() {
+        let (one, next) = (order[k - 1], order[k]);
+        if place(one) == place(next) && right(next, false) == right(one, true) {
+            order.swap(k - 1, k);
+        }
+    }
+    order
+}
+
 /// The component of the domain to which each edge of its outside belongs; for those of the frame the first.
 fn components_outside(domain: &Domain, outside: &Complement) -> Vec<u32> {
     let component = |edge: u32| {
@@ -309,7 +349,7 @@ struct Level<'s, 'a> {
     distance: f64,
     /// Which keypoints are farther.
     farther: Vec<bool>,
-    /// What has been passed.
+    /// Which paths have been passed from a start that is farther.
     is_passed: Vec<bool>,
 }
 
@@ -356,9 +396,9 @@ impl<'s, 'a> Level<'s, 'a> {
                     }
                 }
             }
-            polygons.push(outer_first(contours));
+            polygons.push(contours);
         }
-        Ok(Outline { polygons })
+        Ok(Outline { polygons: in_order(polygons) })
     }
 
     /// What is not farther than the distance outside.
@@ -390,7 +430,7 @@ impl<'s, 'a> Level<'s, 'a> {
             }
         }
         contours.retain(|contours| !contours.is_empty());
-        Ok(Outline { polygons: contours.into_iter().map(outer_first).collect() })
+        Ok(Outline { polygons: in_order(contours) })
     }
 
     /// Whether all of a path is farther.
@@ -433,7 +473,6 @@ impl<'s, 'a> Level<'s, 'a> {
             // Down to the distance and back again.
             if let Some(at) = self.cut(dart) {
                 dart ^= 1;
-                self.is_passed[dart as usize] = true;
                 breaks.push(Break { at, after: right(dart) });
             }
             let to = shape.turns.path(dart).to;
@@ -462,17 +501,33 @@ impl<'s, 'a> Level<'s, 'a> {
 
     /// What comes in from infinity after a path that goes there.
     fn turn_at_infinity(&self, dart: u32, breaks: &mut Vec<Break>) -> Result<u32, OffsetError> {
-        let path = self.shape.turns.path(dart);
-        let start = self.shape.governor(path.right);
+        let shape = self.shape;
+        let out = shape.turns.path(dart);
+        let &next = shape.horizon.inwards.get(&out.to).ok_or_else(|| disordered(out.to))?;
+        let inwards = shape.turns.path(next);
+        let [start, end] = [out, inwards].map(|path| shape.governor(path.right));
+        if start == end && self.is_between(start, out.to, inwards.from) {
+            return Ok(next);
+        }
         let mut element = start;
         loop {
-            if let Some(&inwards) = self.shape.horizon.inwards.get(&element) {
-                return Ok(inwards);
-            }
             element = self.pass(element, breaks);
-            if element == start {
-                return Err(disordered(path.to));
+            if element == end {
+                return Ok(next);
             }
+            if element == start {
+                return Err(disordered(out.to));
+            }
+        }
+    }
+
+    /// Whether all between two keypoints far away, the second one after the first clockwise, is nearest to
+    /// an element, and not all the rest of the boundary between.
+    fn is_between(&self, element: Site, first: u32, second: u32) -> bool {
+        let [p, q] = [first, second].map(|k| self.shape.axis.keypoints().at(k).position);
+        match self.shape.element(element) {
+            Element::Edge(a, b) => (b - a).dot(q - p) >= 0.0,
+            Element::Corner(corner) => orient2d(corner, p, q) <= 0.0,
         }
     }
 
@@ -530,18 +585,31 @@ impl<'s, 'a> Level<'s, 'a> {
     }
 }
 
-fn disordered(keypoint: u32) -> OffsetError {
-    OutlineError::Disordered { keypoint }.into()
+/// Polygons of their contours, whoever made the axis: each contour begins at its least point, the outer one,
+/// which has the interior inside, comes first, and all else is in the order of the least points.
+fn in_order(contours: impl IntoIterator<Item = Vec<Contour>>) -> Vec<OutlinePolygon> {
+    let start = |piece: &OutlinePiece| piece.ends()[0];
+    let least = |contour: &Contour| contour.0.first().map(start).unwrap_or_default();
+    let polygon = |mut contours: Vec<Contour>| {
+        for Contour(pieces) in &mut contours {
+            let places = 0..pieces.len();
+            let first = places.min_by(|&j, &k| start(&pieces[j]).lexicographic(start(&pieces[k])));
+            pieces.rotate_left(first.unwrap_or(0));
+        }
+        contours.sort_by(|one, other| least(one).lexicographic(least(other)));
+        let areas: Vec<f64> = contours.iter().map(Contour::area).collect();
+        if let Some(outer) = (0..areas.len()).max_by(|&j, &k| areas[j].total_cmp(&areas[k])) {
+            contours[..=outer].rotate_right(1);
+        }
+        OutlinePolygon(contours)
+    };
+    let mut polygons: Vec<OutlinePolygon> = contours.into_iter().map(polygon).collect();
+    polygons.sort_by(|one, other| least(&one.0[0]).lexicographic(least(&other.0[0])));
+    polygons
 }
 
-/// A polygon of its contours: the outer one, which has the interior inside, comes first.
-fn outer_first(mut contours: Vec<Contour>) -> OutlinePolygon {
-    let areas: Vec<f64> = contours.iter().map(Contour::area).collect();
-    let outer = (0..areas.len()).max_by(|&a, &b| areas[a].total_cmp(&areas[b]));
-    if let Some(outer) = outer {
-        contours.swap(0, outer);
-    }
-    OutlinePolygon(contours)
+fn disordered(keypoint: u32) -> OffsetError {
+    OutlineError::Disordered { keypoint }.into()
 }
 
 /// The root of a tree of components.

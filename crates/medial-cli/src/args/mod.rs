@@ -1,3 +1,7 @@
+mod offset;
+
+pub use offset::OffsetArgs;
+
 use crate::failure::{Failure, Status};
 use clap::error::ErrorKind;
 use clap::{Args, Parser, Subcommand, ValueEnum};
@@ -39,6 +43,8 @@ pub enum Command {
     Reconstruct(ReconstructArgs),
     /// Compute the main line of polygons, or the longest few, with widths
     Centerline(CenterlineArgs),
+    /// Compute parallel curves of polygons, inward or outward
+    Offset(OffsetArgs),
     /// Compute the Voronoi diagram of the boundary elements of polygons
     Voronoi(VoronoiArgs),
     /// Find what of the boundary of polygons is nearest to a point

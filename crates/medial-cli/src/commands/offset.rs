@@ -1,0 +1,135 @@
+use super::axis::format_of;
+use super::features::Run;
+use super::sink::{Sink, boundary, title};
+use crate::args::OffsetArgs;
+use crate::failure::{Failure, Status};
+use crate::report::Entry;
+use crate::timings::{Stages, timed};
+use medial::domain::Domain;
+use medial::engine::{self, exterior, interior};
+use medial::ops::{Outline, offset_margin, offsets};
+use medial_io::record::{self, Record, Shape};
+use medial_io::svg::{Options, Parallels, write_offsets};
+use medial_io::{Format, domain_tolerance, offset_document};
+use std::time::Duration;
+
+const COLUMNS: &[&str] = &["distance", "area", "length", "n_polygons", "n_holes"];
+
+/// `medial offset`.
+pub fn run(args: &OffsetArgs) -> Result<Status, Failure> {
+    let mut run = Run::new(&args.common)?;
+    let format = output_format(args)?;
+    let input = run.open(&args.input)?;
+    let layer = timed(&mut run.stages.read, || input.layer())?;
+    let output = args.target.output.as_deref();
+    let mut sink = Sink::create(output, format, record::header(COLUMNS), layer.crs.clone())?;
+    let mut pictures = Vec::new();
+    let mut write = Duration::ZERO;
+    let (at_once, threads) = run.threads(&layer);
+    let options = engine::Options { threads, ..engine::Options::default() };
+    let status = run.each(
+        &input,
+        layer,
+        at_once,
+        |feature, domain, stages, bytes| {
+            let outlines = parallels(args, domain, stages, &options)?;
+            if format == Format::Svg {
+                return Ok(Some(Parallels { boundary: boundary(domain), outlines }));
+            }
+            timed(&mut stages.write, || {
+                if format == Format::Json {
+                    for (distance, outline) in &outlines {
+                        let line = offset_document::write(feature, args.engine, *distance, outline);
+                        bytes.extend_from_slice(line.as_bytes());
+                    }
+                    return;
+                }
+                let tolerance = args.tolerance.unwrap_or_else(|| domain_tolerance(domain));
+                let records: Vec<Record> =
+                    outlines.iter().map(|(d, outline)| record(*d, outline, tolerance)).collect();
+                record::write(bytes, format, feature, args.engine, COLUMNS, &records);
+            });
+            Ok(None)
+        },
+        |picture| pictures.extend(picture),
+        |bytes| timed(&mut write, || sink.write(bytes)),
+    )?;
+    if status != Status::NoResult {
+        timed(&mut write, || {
+            let options = Options { title: title("Offsets", &args.input), ..Options::default() };
+            let is_picture = format == Format::Svg;
+            let picture =
+                if is_picture { write_offsets(&pictures, &options) } else { String::new() };
+            sink.finish(picture.as_bytes())
+        })?;
+    }
+    run.stages.write += write;
+    run.finish()?;
+    Ok(status)
+}
+
+/// The parallel curves of a shape in the order of the distances, without those at which nothing is left.
+fn parallels(
+    args: &OffsetArgs,
+    domain: &Domain,
+    stages: &mut Stages,
+    options: &engine::Options<'_>,
+) -> Result<Vec<(f64, Outline)>, Entry> {
+    let mut outlines: Vec<Option<Outline>> = vec![None; args.distance.len()];
+    for outward in [false, true] {
+        let asked = || (0..).zip(&args.distance).filter(|(_, d)| (**d < 0.0) == outward);
+        let distances: Vec<f64> = asked().map(|(_, distance)| distance.abs()).collect();
+        let Some(most) = distances.iter().copied().reduce(f64::max) else { continue };
+        let axis = timed(&mut stages.engine, || {
+            if outward {
+                exterior(domain, args.engine, Some(offset_margin(domain, most)), options)
+            } else {
+                interior(domain, args.engine, options)
+            }
+        });
+        let axis = axis.map_err(|error| Entry::unfinished(&error))?;
+        let found = timed(&mut stages.operations, || offsets(domain, &axis, &distances))
+            .map_err(|error| Entry::internal(&error))?;
+        asked()
+            .zip(found)
+            .for_each(|((k, _), outline): ((usize, _), _)| outlines[k] = Some(outline));
+    }
+    let outlines = args.distance.iter().copied().zip(outlines.into_iter().flatten());
+    Ok(outlines.filter(|(_, outline)| !outline.polygons.is_empty()).collect())
+}
+
+fn record(distance: f64, outline: &Outline, tolerance: f64) -> Record {
+    let polygons = outline.polygons(tolerance);
+    let n_holes: usize = outline.polygons.iter().map(|polygon| polygon.0.len() - 1).sum();
+    let values = vec![
+        distance.into(),
+        outline.area().into(),
+        outline.length().into(),
+        outline.polygons.len().into(),
+        n_holes.into(),
+    ];
+    Record { values, shape: Shape::Polygons(polygons) }
+}
+
+/// The format of the output, if offsets and the other options have it.
+fn output_format(args: &OffsetArgs) -> Result<Format, Failure> {
+    let file = args.target.output.as_deref().filter(|path| path.as_os_str() != "-");
+    let format = format_of(args.target.to, file)?;
+    let usage = |why: String| Err(Failure::Usage(why));
+    let exact = [Format::Json, Format::Svg];
+    if !exact.contains(&format) && !record::FORMATS.contains(&format) {
+        let names = record::FORMATS.iter().chain(&exact).map(|format| format.name());
+        let names = names.collect::<Vec<_>>().join(", ");
+        return usage(format!("offsets are written as {names}, not as {format}"));
+    }
+    if args.tolerance.is_some() && exact.contains(&format) {
+        return usage(format!("--tolerance is for polylines; arcs are exact in {format}"));
+    }
+    if format == Format::Wkb
+        && file.is_none()
+        && std::io::IsTerminal::is_terminal(&std::io::stdout())
+    {
+        return usage("a terminal shows no wkb; name a file with -o".to_owned());
+    }
+    Ok(format)
+}
