@@ -4,6 +4,8 @@
 //! reads shapes and prints one line, as `measure` describes, with the number of paths as what was
 //! found; `medial-bench both ENGINE` does so for the interior and the exterior together;
 //! `medial-bench operation NAME` times the default engine and an operation on its axis;
+//! `medial-bench offsets D,D` reads shapes and prints, as JSON, the areas of their parallel curves with the
+//! areas of the sectors of their arcs, their lengths, and the seconds that took without reading;
 //! `medial-bench axis SHAPE EDGES` computes the axis of a shape once, for counting
 //! instructions in `medial_bench_domain` and `medial_bench_engine`; `medial-bench work SHAPE EDGES`
 //! prints the numbers of edges and rings, and what the merges of `divide_and_conquer` did: pieces,
@@ -11,12 +13,16 @@
 
 use std::{env, hint};
 
+use cpu_time::ThreadTime;
 use medial::axis::{Engine, MedialAxis};
 use medial::domain::{Domain, DomainError, Options};
-use medial::engine::{self, EngineError, both_sides, divide_and_conquer_counted, interior};
+use medial::engine::{
+    self, EngineError, both_sides, divide_and_conquer_counted, exterior, interior,
+};
 use medial::geom::Point;
 use medial::ops::{
-    CenterlineOptions, Hierarchy, Measure, Outline, branches, centerlines, polygons_of, smoothed,
+    CenterlineOptions, Hierarchy, Measure, Outline, OutlinePiece, branches, centerlines,
+    offset_margin, offsets, polygons_of, smoothed,
 };
 use medial_bench::measure::{Error, Work, report};
 use medial_bench::{shapes, text};
@@ -29,10 +35,11 @@ fn main() -> Result<(), Error> {
         ["time", engine] => time(engine.parse()?),
         ["both", engine] => both(engine.parse()?),
         ["operation", name] => operation(name),
+        ["offsets", distances] => parallel_curves(distances),
         ["axis", shape, edges] => axis(shape, edges.parse()?),
         ["work", shape, edges] => work(shape, edges.parse()?),
         _ => {
-            Err("medial-bench draw, axis or work SHAPE EDGES, time [ENGINE], both ENGINE or operation NAME".into())
+            Err("medial-bench draw, axis or work SHAPE EDGES, time [ENGINE], both ENGINE, operation NAME or offsets D,D".into())
         }
     }
 }
@@ -108,6 +115,51 @@ fn medial_bench_operation(name: &str, domain: &Domain, axis: &MedialAxis) -> Res
         "centerline" => centerlines(domain, axis, &CenterlineOptions::default())?.len(),
         _ => return Err(format!("no operation {name}").into()),
     })
+}
+
+/// Prints the areas of parallel curves.
+fn parallel_curves(distances: &str) -> Result<(), Error> {
+    let distances: Vec<f64> = distances.split(',').map(str::parse).collect::<Result<_, _>>()?;
+    let features = text::read()?;
+    let start = ThreadTime::now();
+    let [mut areas, mut sectors, mut lengths] = [const { Vec::new() }; 3];
+    for polygons in &features {
+        let domain = medial_bench_domain(polygons)?;
+        let mut found = vec![[0.0; 3]; distances.len()];
+        for outward in [false, true] {
+            let asked = || (0..).zip(&distances).filter(|(_, d)| (**d < 0.0) == outward);
+            let sizes: Vec<f64> = asked().map(|(_, d)| d.abs()).collect();
+            let Some(most) = sizes.iter().copied().reduce(f64::max) else { continue };
+            let axis = if outward {
+                let margin = Some(offset_margin(&domain, most));
+                exterior(&domain, Engine::PathTracing, margin, &engine::Options::default())?
+            } else {
+                medial_bench_engine(Engine::PathTracing, &domain)?
+            };
+            for ((k, _), outline) in asked().zip(offsets(&domain, &axis, &sizes)?) {
+                let k: usize = k;
+                found[k] = [outline.area(), sector_area(&outline), outline.length()];
+            }
+        }
+        for (k, list) in [&mut areas, &mut sectors, &mut lengths].into_iter().enumerate() {
+            list.push(found.iter().map(|f| f[k]).collect::<Vec<f64>>());
+        }
+    }
+    let seconds = start.elapsed().as_secs_f64();
+    println!(
+        "{{\"areas\":{areas:?},\"sectors\":{sectors:?},\"lengths\":{lengths:?},\"seconds\":{seconds}}}"
+    );
+    Ok(())
+}
+
+/// The area of the sectors of all arcs.
+fn sector_area(outline: &Outline) -> f64 {
+    let pieces = outline.polygons.iter().flat_map(|polygon| &polygon.0).flat_map(|c| &c.0);
+    let area = |piece: &OutlinePiece| match piece {
+        OutlinePiece::Arc { radius, .. } => 0.5 * radius * radius * piece.sweep().abs(),
+        OutlinePiece::Corner(_) => 0.0,
+    };
+    pieces.map(area).sum()
 }
 
 fn work(shape: &str, edges: usize) -> Result<(), Error> {

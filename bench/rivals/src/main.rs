@@ -7,10 +7,17 @@
 //! - `delaunator`: the Delaunay triangulation of the corners. Found: triangles.
 //! - `spade`: the same. Found: triangles.
 //! - `spade-cdt`: the Delaunay triangulation constrained to the edges. Found: triangles.
+//!
+//! `rivals i_overlay D,D` prints, as JSON, the areas of the outlines of `i_overlay` at these distances, inward
+//! if positive, and the seconds that took without reading.
 
 use std::env;
 
 use boostvoronoi::prelude::{Builder, Diagram, Line};
+use cpu_time::ThreadTime;
+use i_overlay::mesh::outline::offset::OutlineOffset as _;
+use i_overlay::mesh::style::{LineJoin, OutlineStyle};
+use medial::geom::Point;
 use medial_bench::measure::{Error, Work, report};
 use medial_bench::text::{self, Polygons};
 use spade::{ConstrainedDelaunayTriangulation, DelaunayTriangulation, Point2, Triangulation as _};
@@ -25,8 +32,54 @@ fn main() -> Result<(), Error> {
         Some("delaunator") => delaunator(&features),
         Some("spade") => spade(&features),
         Some("spade-cdt") => spade_cdt(&features),
-        _ => Err("rivals boostvoronoi, delaunator, spade or spade-cdt".into()),
+        Some("i_overlay") => {
+            let distances = env::args().nth(2).unwrap_or_default();
+            let distances =
+                distances.split(',').map(str::parse).collect::<Result<Vec<f64>, _>>()?;
+            i_overlay(&features, &distances);
+            Ok(())
+        }
+        _ => Err("rivals boostvoronoi, delaunator, spade, spade-cdt or i_overlay D,D".into()),
     }
+}
+
+/// The least angle of a piece of an arc that it takes, as a share of the radius.
+const ANGLE: f64 = 0.01 * std::f64::consts::PI;
+
+fn i_overlay(features: &[Polygons], distances: &[f64]) {
+    let start = ThreadTime::now();
+    let area = |polygons: &Polygons, distance: f64| -> f64 {
+        let shapes: Vec<Vec<Vec<[f64; 2]>>> = polygons
+            .iter()
+            .map(|rings| {
+                let ring = |(k, ring): (usize, &Vec<Point>)| {
+                    let mut ring: Vec<[f64; 2]> = ring.iter().map(|p| [p.x, p.y]).collect();
+                    // Outer rings counterclockwise, holes the other way.
+                    if (twice_area(&ring) < 0.0) == (k == 0) {
+                        ring.reverse();
+                    }
+                    ring
+                };
+                rings.iter().enumerate().map(ring).collect()
+            })
+            .collect();
+        let style = OutlineStyle::new(-distance).line_join(LineJoin::Round(ANGLE));
+        let outlines = shapes.outline_as::<i64>(&style);
+        outlines.iter().flatten().map(|contour| 0.5 * twice_area(contour)).sum()
+    };
+    let areas: Vec<Vec<f64>> = features
+        .iter()
+        .map(|polygons| distances.iter().map(|&distance| area(polygons, distance)).collect())
+        .collect();
+    let seconds = start.elapsed().as_secs_f64();
+    println!("{{\"areas\":{areas:?},\"angle\":{ANGLE},\"seconds\":{seconds}}}");
+}
+
+fn twice_area(ring: &[[f64; 2]]) -> f64 {
+    let Some(&[x, y]) = ring.first() else { return 0.0 };
+    let next = ring.iter().cycle().skip(1);
+    let cross = |(a, b): (&[f64; 2], &[f64; 2])| (a[0] - x) * (b[1] - y) - (a[1] - y) * (b[0] - x);
+    ring.iter().zip(next).map(cross).sum()
 }
 
 fn boostvoronoi(features: &[Polygons]) -> Result<(), Error> {
