@@ -2,6 +2,7 @@
 
 mod branches;
 mod centerline;
+mod clearance;
 mod compress;
 mod distance;
 mod fire;
@@ -15,6 +16,7 @@ mod measure;
 mod offset;
 mod outline;
 mod prominence;
+mod radii;
 mod reconstruct;
 mod rest;
 mod scale;
@@ -28,6 +30,7 @@ pub use centerline::{
     Centerline, CenterlineError, CenterlineOptions, Extension, LineOptions, Route, Widths,
     centerlines, polylines,
 };
+pub use clearance::{Neck, largest_disks, necks};
 pub use compress::{
     CompressError, Compressed, Corners, DiskGraph, GridDisk, RebuildError, Run, compress,
 };

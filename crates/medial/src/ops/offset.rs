@@ -25,10 +25,10 @@ use std::collections::HashMap;
 use super::ground::Ground;
 use super::hierarchy::HierarchyError;
 use super::outline::{Contour, Outline, OutlineError, OutlinePiece, OutlinePolygon, Sense, Turns};
-use crate::axis::{Accuracy, KeypointKind, MedialAxis, Path, Side};
+use super::radii::{Radii, falls_to};
+use crate::axis::{KeypointKind, MedialAxis, Side};
 use crate::domain::{Complement, Domain, Site};
-use crate::engine::exterior_frame;
-use crate::geom::predicates::{Element, ExactDisk, compare_gap};
+use crate::geom::predicates::Element;
 use crate::geom::{Point, Rect, orient2d};
 
 /// Why there is no offset.
@@ -60,15 +60,6 @@ pub enum OffsetError {
 /// The least and the largest distance but zero: as for coordinates.
 const DISTANCES: [f64; 2] =
     [f64::from_bits((1023 - 200) << 52), f64::from_bits((1023 + 200) << 52)];
-
-/// How far, as a share, a radius in doubles may be from the true one at most.
-///
-/// Within this nothing is decided by it.
-const DOUBT: f64 = 1e-12;
-
-/// How near to the line through two corners, or to the foot of one, as a share of the coordinates, a keypoint
-/// in doubles is not trusted to be on the side where it seems to be.
-const MIDDLE: f64 = 1e-12;
 
 /// The least angle of an arc that cannot be: around a corner it is less than a half turn, so this one is
 /// nothing, the wrong way round.
@@ -133,12 +124,8 @@ pub fn offset_margin(domain: &Domain, distance: f64) -> f64 {
 /// An axis, ready to be cut at any distance.
 struct Shape<'a> {
     axis: &'a MedialAxis,
-    ground: Ground<'a>,
+    radii: Radii<'a>,
     turns: Turns<'a>,
-    /// The element behind each site.
-    governors: Vec<Site>,
-    /// The least radius along each path.
-    least: Vec<f64>,
     horizon: Horizon,
     /// Outside, the component of the domain of each edge of the ground.
     components: Vec<u32>,
@@ -159,19 +146,7 @@ struct Horizon {
 impl<'a> Shape<'a> {
     fn new(domain: &'a Domain, axis: &'a MedialAxis) -> Result<Self, OffsetError> {
         let keypoints = axis.keypoints();
-        let is_cut = axis.side == Side::Exterior
-            && keypoints.iter().all(|keypoint| keypoint.kind != KeypointKind::Tip);
-        if !(axis.complete || is_cut) || axis.accuracy != Accuracy::Exact {
-            return Err(HierarchyError::Incomplete.into());
-        }
-        let no_outside = HierarchyError::NoOutside;
-        let frame = match axis.side {
-            Side::Interior => Rect::EMPTY,
-            Side::Exterior => exterior_frame(domain, None).map_err(|_| no_outside.clone())?,
-        };
-        let ground = Ground::new(domain, axis.side, &frame).ok_or(no_outside)?;
-        let governors =
-            ground.governors(axis).map_err(|name| HierarchyError::UnknownSite { name })?;
+        let radii = Radii::new(domain, axis)?;
         let turns = Turns::new(axis)?;
         let clipped = |k: &u32| keypoints.at(*k).kind == KeypointKind::Clipped;
         let ends: Vec<u32> = (0..keypoints.len() as u32).filter(clipped).collect();
@@ -183,128 +158,21 @@ impl<'a> Shape<'a> {
             horizon.inwards.extend(turns.leaving.of(next).first().map(|&dart| (end, dart)));
         }
         let mut components = Vec::new();
-        if let Ground::Outside(outside) = &ground {
+        if let Ground::Outside(outside) = radii.ground() {
             if ends.is_empty() {
                 let edges = outside.horizon().edges;
                 horizon.convex = edges.first().map(|&edge| outside.domain().edge(edge).walk);
             }
             components = components_outside(domain, outside);
         }
-        let least = axis.paths().iter().map(|path| axis.curve(&path).radius_min()).collect();
         let n_components = domain.n_components();
-        Ok(Self {
-            axis,
-            ground,
-            turns,
-            governors,
-            least,
-            horizon,
-            components,
-            n_components,
-            margin,
-        })
-    }
-
-    fn governor(&self, site: u32) -> Site {
-        self.governors[site as usize]
-    }
-
-    /// The element that follows along the boundary.
-    fn after(&self, element: Site) -> Site {
-        if !element.is_edge() {
-            return Site::edge(element.index());
-        }
-        let next = self.ground.domain().edge(element.index()).next;
-        if self.ground.has_cell(Site::corner(next)) { Site::corner(next) } else { Site::edge(next) }
+        Ok(Self { axis, radii, turns, horizon, components, n_components, margin })
     }
 
     /// The component of the domain that an element outside belongs to.
     fn component(&self, element: Site) -> u32 {
         // Where walks meet, a corner is that of the edge at its start; there they are one at any distance.
         self.components[element.index() as usize]
-    }
-
-    /// An element as predicates see it.
-    fn element(&self, element: Site) -> Element {
-        self.ground.domain().element(element)
-    }
-
-    /// The disk of a keypoint; `None` for one that no three elements govern.
-    fn disk(&self, keypoint: u32) -> Option<ExactDisk> {
-        /// Threes that are tried; nearly always the first one is a disk.
-        const TRIED: usize = 64;
-        let list = self.axis.governors(keypoint);
-        let mut elements: Vec<Element> =
-            list.iter().map(|&g| self.element(self.governor(g))).collect();
-        // Where a straight joint governs, its edges are on one line.
-        for k in (0..list.len()).rev() {
-            let [one, next] = [k, (k + 1) % list.len()].map(|k| self.governor(list[k]));
-            if let (true, Element::Edge(start, _)) = (one.is_edge(), self.element(next))
-                && self.after(one) == next
-            {
-                elements.insert(k + 1, Element::Corner(start));
-            }
-        }
-        let n = elements.len();
-        let threes = (0..n)
-            .flat_map(|i| (i + 1..n).flat_map(move |j| (j + 1..n).map(move |k| [i, j, k])))
-            .take(TRIED);
-        threes.map(|three| three.map(|k| elements[k])).find_map(ExactDisk::new)
-    }
-
-    /// Whether a keypoint is farther from the boundary than a distance.
-    fn is_farther(&self, keypoint: u32, distance: f64) -> bool {
-        let radius = self.axis.keypoints().at(keypoint).radius;
-        if (radius - distance).abs() > DOUBT * radius || radius == 0.0 {
-            return radius > distance;
-        }
-        match self.disk(keypoint) {
-            Some(disk) => disk.compare_radius(distance).is_gt(),
-            None => radius > distance,
-        }
-    }
-
-    /// Whether all of a path is farther than a distance, if its ends are.
-    fn is_whole(&self, number: u32, path: &Path, distance: f64) -> bool {
-        let least = self.least[number as usize];
-        if least > distance * (1.0 + DOUBT) {
-            return true;
-        }
-        let [left, right] = [path.left, path.right].map(|site| self.governor(site));
-        if left.is_edge() && right.is_edge() {
-            return true;
-        }
-        // Twice a double is one.
-        let [one, other] = [left, right].map(|site| self.element(site));
-        compare_gap(one, other, 2.0 * distance).is_gt() || !self.has_neck(path, one, other)
-    }
-
-    /// Whether the place where its governors are nearest to each other lies inside a path: where a parabola
-    /// passes the foot of its focus, or a line between two corners that between them.
-    fn has_neck(&self, path: &Path, one: Element, other: Element) -> bool {
-        let past = |keypoint: u32| {
-            let at = self.axis.keypoints().at(keypoint).position;
-            let (a, b, p, is_corners) = match (one, other) {
-                (Element::Corner(p), Element::Corner(q)) => (p, q, p, true),
-                (Element::Corner(p), Element::Edge(a, b))
-                | (Element::Edge(a, b), Element::Corner(p)) => (a, b, p, false),
-                (Element::Edge(..), Element::Edge(..)) => return Ordering::Equal,
-            };
-            let way = if is_corners { (b - a).perp() } else { b - a };
-            let product = way.dot(at - p);
-            let size = at.x.abs() + at.y.abs() + p.x.abs() + p.y.abs();
-            let known = product.partial_cmp(&0.0).unwrap_or(Ordering::Equal);
-            if product.abs() > MIDDLE * size * way.norm() {
-                return known;
-            }
-            match self.disk(keypoint) {
-                Some(disk) if is_corners => disk.front(a, b),
-                Some(disk) => disk.along(a, b, p),
-                None => known,
-            }
-        };
-        [Ordering::Less, Ordering::Greater].contains(&past(path.from))
-            && past(path.from) == past(path.to).reverse()
     }
 }
 
@@ -362,7 +230,7 @@ struct Break {
 impl<'s, 'a> Level<'s, 'a> {
     fn new(shape: &'s Shape<'a>, distance: f64) -> Self {
         let n = shape.axis.keypoints().len() as u32;
-        let farther = (0..n).map(|k| shape.is_farther(k, distance)).collect();
+        let farther = (0..n).map(|k| shape.radii.compare(k, distance).is_gt()).collect();
         let is_passed = vec![false; 2 * shape.axis.paths().len()];
         Self { shape, distance, farther, is_passed }
     }
@@ -406,7 +274,7 @@ impl<'s, 'a> Level<'s, 'a> {
         let shape = self.shape;
         let mut parents: Vec<u32> = (0..shape.n_components as u32).collect();
         for (number, path) in (0..).zip(shape.axis.paths()) {
-            let [left, right] = [path.left, path.right].map(|s| shape.governor(s));
+            let [left, right] = [path.left, path.right].map(|s| shape.radii.governor(s));
             let [left, right] = [left, right].map(|s| shape.component(s));
             if left != right && !self.is_kept(2 * number) {
                 join(&mut parents, left, right);
@@ -438,7 +306,7 @@ impl<'s, 'a> Level<'s, 'a> {
         let path = self.shape.axis.paths().at(dart / 2);
         self.farther[path.from as usize]
             && self.farther[path.to as usize]
-            && self.shape.is_whole(dart / 2, &path, self.distance)
+            && self.shape.radii.is_whole(dart / 2, &path, self.distance)
     }
 
     /// Where a path whose start is farther comes down to the distance first, if it does.
@@ -446,26 +314,15 @@ impl<'s, 'a> Level<'s, 'a> {
         if self.is_kept(dart) {
             return None;
         }
-        let path = &self.shape.turns.path(dart);
-        let curve = self.shape.axis.curve(path);
-        // The end up to which the radius falls. Rounded, it may reach the distance at an end only.
-        let neck = curve.neck().filter(|_| self.farther[path.to as usize]);
-        let end = neck.unwrap_or(1.0);
-        let u = if curve.radius_from() <= self.distance {
-            0.0
-        } else {
-            let off = |u: f64| (curve.radius_at(u) - self.distance).abs();
-            let [first, _] = curve.parameters_at_radius(self.distance);
-            let nearest = if off(0.0) < off(end) { 0.0 } else { end };
-            first.filter(|&u| u <= end).unwrap_or(nearest)
-        };
-        Some(curve.point_at(u))
+        let path = self.shape.turns.path(dart);
+        let curve = self.shape.axis.curve(&path);
+        Some(curve.point_at(falls_to(&curve, self.farther[path.to as usize], self.distance)))
     }
 
     /// The contour to the right of a path and of what follows, and an element on it.
     fn contour(&mut self, start: u32) -> Result<(Contour, Site), OffsetError> {
         let shape = self.shape;
-        let right = |dart: u32| shape.governor(shape.turns.path(dart).right);
+        let right = |dart: u32| shape.radii.governor(shape.turns.path(dart).right);
         let mut breaks = Vec::new();
         let mut dart = start;
         loop {
@@ -492,7 +349,8 @@ impl<'s, 'a> Level<'s, 'a> {
         let shape = self.shape;
         let next = shape.turns.next(dart);
         let path = shape.turns.path(dart);
-        let [before, after] = [path, shape.turns.path(next)].map(|path| shape.governor(path.right));
+        let [before, after] =
+            [path, shape.turns.path(next)].map(|path| shape.radii.governor(path.right));
         if before != after && self.pass(before, breaks) != after {
             return Err(disordered(path.to));
         }
@@ -505,7 +363,7 @@ impl<'s, 'a> Level<'s, 'a> {
         let out = shape.turns.path(dart);
         let &next = shape.horizon.inwards.get(&out.to).ok_or_else(|| disordered(out.to))?;
         let inwards = shape.turns.path(next);
-        let [start, end] = [out, inwards].map(|path| shape.governor(path.right));
+        let [start, end] = [out, inwards].map(|path| shape.radii.governor(path.right));
         if start == end && self.is_between(start, out.to, inwards.from) {
             return Ok(next);
         }
@@ -525,7 +383,7 @@ impl<'s, 'a> Level<'s, 'a> {
     /// an element, and not all the rest of the boundary between.
     fn is_between(&self, element: Site, first: u32, second: u32) -> bool {
         let [p, q] = [first, second].map(|k| self.shape.axis.keypoints().at(k).position);
-        match self.shape.element(element) {
+        match self.shape.radii.element(element) {
             Element::Edge(a, b) => (b - a).dot(q - p) >= 0.0,
             Element::Corner(corner) => orient2d(corner, p, q) <= 0.0,
         }
@@ -533,8 +391,8 @@ impl<'s, 'a> Level<'s, 'a> {
 
     /// Goes on from an element to the next one along the boundary.
     fn pass(&self, element: Site, breaks: &mut Vec<Break>) -> Site {
-        let after = self.shape.after(element);
-        let domain = self.shape.ground.domain();
+        let after = self.shape.radii.after(element);
+        let domain = self.shape.radii.domain();
         let edge = domain.edge(if element.is_edge() { element } else { after }.index());
         let corner = domain.edge(after.index()).start;
         breaks.push(Break { at: corner + edge.direction.perp() * self.distance, after });
@@ -543,7 +401,7 @@ impl<'s, 'a> Level<'s, 'a> {
 
     /// The contour around a walk that no path leads to.
     fn around(&self, walk: u32) -> (Contour, Site) {
-        let start = Site::edge(self.shape.ground.domain().walks()[walk as usize].first);
+        let start = Site::edge(self.shape.radii.domain().walks()[walk as usize].first);
         let (mut element, mut breaks) = (start, Vec::new());
         loop {
             element = self.pass(element, &mut breaks);
@@ -563,7 +421,7 @@ impl<'s, 'a> Level<'s, 'a> {
         };
         let next = breaks.iter().cycle().skip(1);
         for (&Break { at: from, after: site }, &Break { at: to, .. }) in breaks.iter().zip(next) {
-            let centre = self.shape.ground.domain().edge(site.index()).start;
+            let centre = self.shape.radii.domain().edge(site.index()).start;
             let arc = OutlinePiece::Arc {
                 centre,
                 radius: self.distance,

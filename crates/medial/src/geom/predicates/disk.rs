@@ -293,6 +293,19 @@ impl ExactDisk {
         self.in_tower(|form| form.compare_radius(length))
     }
 
+    /// Orders the radii of two disks.
+    #[must_use]
+    pub fn compare_radii(&self, other: &Self) -> Ordering {
+        let gap = self.near.radius - other.near.radius;
+        // Twice the errors hold the rounding of the gap.
+        if gap.abs() > 2.0 * (self.near.error + other.near.error) {
+            return gap.partial_cmp(&0.0).unwrap_or(Ordering::Equal);
+        }
+        self.in_tower(|form| {
+            other.form().map_or(Ordering::Equal, |other| form.compare_radii(other))
+        })
+    }
+
     fn compare(&self, other: &Self, (a, b): (Point, Point), across: bool) -> Ordering {
         let v = if across { (b - a).perp() } else { b - a };
         rounded(self.near.difference(&other.near, v))

@@ -33,6 +33,14 @@ pub(super) enum Radius {
     Times { part: Surd, n: IBig },
 }
 
+impl Radius {
+    fn part(&self) -> &Surd {
+        match self {
+            Self::Over { part, .. } | Self::Times { part, .. } => part,
+        }
+    }
+}
+
 impl Homogeneous {
     /// The order of the distance of a corner against the radius.
     pub(super) fn side_of_corner(&self, p: Point) -> Ordering {
@@ -103,6 +111,28 @@ impl Homogeneous {
             }
         };
         disk.tower.sign(&difference)
+    }
+
+    /// The order of the radius against that of another disk.
+    pub(super) fn compare_radii(&self, other: &Self) -> Ordering {
+        let unit = self.grid.unit.min(other.grid.unit);
+        let (this, other) = (self.on_unit(unit), other.on_unit(unit));
+        let mut tower = this.tower.clone();
+        let roots = tower.adjoin(&other.tower);
+        let part = tower.image(other.radius.part(), &roots);
+        let w = tower.image(&other.w, &roots);
+        // Squares of both radii times those of both w, without fractions.
+        let ours = tower.mul(&tower.square(this.radius.part()), &tower.square(&w));
+        let theirs = tower.mul(&tower.square(&part), &tower.square(&this.w));
+        let (ours, theirs) = match (&this.radius, &other.radius) {
+            (Radius::Over { n, .. }, Radius::Over { n: m, .. }) => (ours.scale(m), theirs.scale(n)),
+            (Radius::Over { n, .. }, Radius::Times { n: m, .. }) => (ours, theirs.scale(&(n * m))),
+            (Radius::Times { n, .. }, Radius::Over { n: m, .. }) => (ours.scale(&(n * m)), theirs),
+            (Radius::Times { n, .. }, Radius::Times { n: m, .. }) => {
+                (ours.scale(n), theirs.scale(m))
+            }
+        };
+        tower.sign(&ours.sub(&theirs))
     }
 
     /// The sign of `v·(c - c')` for another disk, with `v` the direction `a` → `b` after a turn.

@@ -207,6 +207,9 @@ fn centres_are_ordered_as_by_the_reference() {
         let along = a.compare_along(&b, o, direction);
         assert_eq!(along, sign(&Vector::new(direction).dot(&between)), "{first:?} {second:?}");
         assert_eq!(b.compare_along(&a, o, direction), along.reverse());
+        let larger = sign(&(c.r.clone() - d.r.clone()));
+        assert_eq!(a.compare_radii(&b), larger, "{first:?} {second:?}");
+        assert_eq!(b.compare_radii(&a), larger.reverse());
         let across = a.compare_across(&b, o, direction);
         assert_eq!(across, sign(&Vector::new(direction).cross(&between)), "{first:?} {second:?}");
         seen.note(along);

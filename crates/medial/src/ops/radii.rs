@@ -1,0 +1,219 @@
+//! Exact questions about the radii of a complete axis: against a length, and where they grow.
+//!
+//! # Method
+//! Doubles answer unless they are near a tie; then predicates on three governors of a keypoint do, or on the
+//! two governors of a path.
+
+use std::cmp::Ordering;
+
+use super::ground::Ground;
+use super::hierarchy::HierarchyError;
+use crate::axis::{Accuracy, Curve, KeypointKind, MedialAxis, Path, Side};
+use crate::domain::{Corner, Domain, Site};
+use crate::engine::exterior_frame;
+use crate::geom::predicates::{Element, ExactDisk, compare_gap};
+use crate::geom::{Rect, cross_directions};
+
+/// How far, as a share, a radius in doubles may be from the true one at most.
+///
+/// Within this nothing is decided by it.
+const DOUBT: f64 = 1e-12;
+
+/// How near to the line through two corners, or to the foot of one, as a share of the coordinates, a keypoint
+/// in doubles is not trusted to be on the side where it seems to be.
+const MIDDLE: f64 = 1e-12;
+
+/// The radii of an axis.
+pub(super) struct Radii<'a> {
+    axis: &'a MedialAxis,
+    ground: Ground<'a>,
+    /// The element behind each site.
+    governors: Vec<Site>,
+    /// The least radius along each path.
+    least: Vec<f64>,
+}
+
+impl<'a> Radii<'a> {
+    /// Those of an axis of a domain.
+    ///
+    /// # Errors
+    /// If the axis is not exact, or pruned, or not of this domain.
+    pub fn new(domain: &'a Domain, axis: &'a MedialAxis) -> Result<Self, HierarchyError> {
+        let is_cut = axis.side == Side::Exterior
+            && axis.keypoints().iter().all(|keypoint| keypoint.kind != KeypointKind::Tip);
+        if !(axis.complete || is_cut) || axis.accuracy != Accuracy::Exact {
+            return Err(HierarchyError::Incomplete);
+        }
+        let frame = match axis.side {
+            Side::Interior => Rect::EMPTY,
+            Side::Exterior => {
+                exterior_frame(domain, None).map_err(|_| HierarchyError::NoOutside)?
+            }
+        };
+        let ground = Ground::new(domain, axis.side, &frame).ok_or(HierarchyError::NoOutside)?;
+        let governors =
+            ground.governors(axis).map_err(|name| HierarchyError::UnknownSite { name })?;
+        let least = axis.paths().iter().map(|path| axis.curve(&path).radius_min()).collect();
+        Ok(Self { axis, ground, governors, least })
+    }
+
+    pub fn ground(&self) -> &Ground<'a> {
+        &self.ground
+    }
+
+    /// The domain of the side of the axis.
+    pub fn domain(&self) -> &Domain {
+        self.ground.domain()
+    }
+
+    pub fn governor(&self, site: u32) -> Site {
+        self.governors[site as usize]
+    }
+
+    /// The element that follows along the boundary.
+    pub fn after(&self, element: Site) -> Site {
+        if !element.is_edge() {
+            return Site::edge(element.index());
+        }
+        let next = self.domain().edge(element.index()).next;
+        if self.ground.has_cell(Site::corner(next)) { Site::corner(next) } else { Site::edge(next) }
+    }
+
+    /// An element as predicates see it.
+    pub fn element(&self, element: Site) -> Element {
+        self.domain().element(element)
+    }
+
+    /// The governors of a path as predicates see them.
+    pub fn elements(&self, path: &Path) -> [Element; 2] {
+        [path.left, path.right].map(|site| self.element(self.governor(site)))
+    }
+
+    /// The least radius along a path, rounded.
+    pub fn least(&self, path: u32) -> f64 {
+        self.least[path as usize]
+    }
+
+    /// The disk of a keypoint; `None` for one that no three elements govern.
+    fn disk(&self, keypoint: u32) -> Option<ExactDisk> {
+        /// Threes that are tried; nearly always the first one is a disk.
+        const TRIED: usize = 64;
+        let list = self.axis.governors(keypoint);
+        let mut elements: Vec<Element> =
+            list.iter().map(|&g| self.element(self.governor(g))).collect();
+        // Where a straight joint governs, its edges are on one line.
+        for k in (0..list.len()).rev() {
+            let [one, next] = [k, (k + 1) % list.len()].map(|k| self.governor(list[k]));
+            if let (true, Element::Edge(start, _)) = (one.is_edge(), self.element(next))
+                && self.after(one) == next
+                && self.domain().edge(next.index()).corner == Corner::Straight
+            {
+                elements.insert(k + 1, Element::Corner(start));
+            }
+        }
+        let n = elements.len();
+        let threes = (0..n)
+            .flat_map(|i| (i + 1..n).flat_map(move |j| (j + 1..n).map(move |k| [i, j, k])))
+            .take(TRIED);
+        threes.map(|three| three.map(|k| elements[k])).find_map(ExactDisk::new)
+    }
+
+    /// The order of the radius of a keypoint against a length.
+    pub fn compare(&self, keypoint: u32, length: f64) -> Ordering {
+        let radius = self.axis.keypoints().at(keypoint).radius;
+        let rounded = || radius.partial_cmp(&length).unwrap_or(Ordering::Equal);
+        if (radius - length).abs() > DOUBT * radius || radius == 0.0 {
+            return rounded();
+        }
+        self.disk(keypoint).map_or_else(rounded, |disk| disk.compare_radius(length))
+    }
+
+    /// The order of the radii of two keypoints.
+    pub fn compare_two(&self, one: u32, other: u32) -> Ordering {
+        let [a, b] = [one, other].map(|k| self.axis.keypoints().at(k).radius);
+        let rounded = || a.partial_cmp(&b).unwrap_or(Ordering::Equal);
+        if (a - b).abs() > DOUBT * a.max(b) || one == other || a == 0.0 || b == 0.0 {
+            return rounded();
+        }
+        match (self.disk(one), self.disk(other)) {
+            (Some(one), Some(other)) => one.compare_radii(&other),
+            _ => rounded(),
+        }
+    }
+
+    /// Whether all of a path is farther from the boundary than a distance, if its ends are.
+    pub fn is_whole(&self, number: u32, path: &Path, distance: f64) -> bool {
+        if self.least(number) > distance * (1.0 + DOUBT) {
+            return true;
+        }
+        let elements = self.elements(path);
+        if let [Element::Edge(..), Element::Edge(..)] = elements {
+            return true;
+        }
+        // Twice a double is one.
+        compare_gap(elements[0], elements[1], 2.0 * distance).is_gt() || !self.has_neck(path)
+    }
+
+    /// Whether the place where its governors are nearest to each other lies inside a path: where a parabola
+    /// passes the foot of its focus, or a line between two corners that between them.
+    pub fn has_neck(&self, path: &Path) -> bool {
+        let sides = [self.past(path, path.from), self.past(path, path.to)];
+        sides[0] != Ordering::Equal && sides[0] == sides[1].reverse()
+    }
+
+    /// On which side of the neck of the whole bisector of a path one of its ends is; equal for two edges.
+    fn past(&self, path: &Path, keypoint: u32) -> Ordering {
+        let at = self.axis.keypoints().at(keypoint).position;
+        let (a, b, p, is_corners) = match self.elements(path) {
+            [Element::Corner(p), Element::Corner(q)] => (p, q, p, true),
+            [Element::Corner(p), Element::Edge(a, b)]
+            | [Element::Edge(a, b), Element::Corner(p)] => (a, b, p, false),
+            [Element::Edge(..), Element::Edge(..)] => return Ordering::Equal,
+        };
+        let way = if is_corners { (b - a).perp() } else { b - a };
+        let product = way.dot(at - p);
+        let size = at.x.abs() + at.y.abs() + p.x.abs() + p.y.abs();
+        let rounded = product.partial_cmp(&0.0).unwrap_or(Ordering::Equal);
+        if product.abs() > MIDDLE * size * way.norm() {
+            return rounded;
+        }
+        match self.disk(keypoint) {
+            Some(disk) if is_corners => disk.front(a, b),
+            Some(disk) => disk.along(a, b, p),
+            None => rounded,
+        }
+    }
+
+    /// Whether the radius is the same all along a path: between two parallel edges.
+    pub fn is_level(&self, path: &Path) -> bool {
+        match self.elements(path) {
+            [Element::Edge(a, b), Element::Edge(c, d)] => cross_directions(a, b, c, d) == 0.0,
+            _ => false,
+        }
+    }
+
+    /// Whether the radius grows from the start of a path on, if it is not level.
+    pub fn rises(&self, path: &Path) -> bool {
+        let [from, to] = [self.past(path, path.from), self.past(path, path.to)];
+        match (from, to) {
+            // Two edges, or both ends on one side of the neck: all along in one direction.
+            _ if from == to => self.compare_two(path.from, path.to).is_lt(),
+            (Ordering::Equal, _) => true,
+            _ => false,
+        }
+    }
+}
+
+/// The parameter at which a curve, from a start that is farther from the boundary than a distance, first comes
+/// down to it; it does so on its way to its end, or if that is farther as well, to its neck.
+pub(super) fn falls_to(curve: &Curve, end_is_farther: bool, distance: f64) -> f64 {
+    // Rounded, it may reach the distance at an end only.
+    let end = curve.neck().filter(|_| end_is_farther).unwrap_or(1.0);
+    if curve.radius_from() <= distance {
+        return 0.0;
+    }
+    let off = |u: f64| (curve.radius_at(u) - distance).abs();
+    let [first, _] = curve.parameters_at_radius(distance);
+    let nearest = if off(0.0) < off(end) { 0.0 } else { end };
+    first.filter(|&u| u <= end).unwrap_or(nearest)
+}
