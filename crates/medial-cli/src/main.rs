@@ -38,6 +38,7 @@ fn run() -> Result<Status, Failure> {
         Command::Reconstruct(args) => commands::reconstruct::run(&args),
         Command::Centerline(args) => commands::centerline::run(&args),
         Command::Offset(args) => commands::offset::run(&args),
+        Command::Clearance(args) => commands::clearance::run(&args),
         Command::Voronoi(args) => commands::voronoi::run(&args),
         Command::Locate(args) => commands::locate::run(&args),
         Command::Check(args) => commands::check::run(&args),

@@ -30,6 +30,8 @@ pub enum Value {
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Shape {
+    /// A point.
+    Point(Point),
     /// A line through these points.
     Line(Vec<Point>),
     /// Polygons, each of rings that are not closed, the outer one first.
@@ -171,6 +173,10 @@ fn geojson(
         }
         out.extend_from_slice(b"},\"geometry\":");
         match &record.shape {
+            Shape::Point(p) => {
+                out.extend_from_slice(b"{\"type\":\"Point\",\"coordinates\":");
+                position(out, *p, None);
+            }
             Shape::Line(points) => {
                 out.extend_from_slice(b"{\"type\":\"LineString\",\"coordinates\":");
                 list(out, points, |out, &p| position(out, p, None));
@@ -208,7 +214,7 @@ fn list<T>(out: &mut Vec<u8>, items: impl IntoIterator<Item = T>, item: impl Fn(
     out.push(b']');
 }
 
-/// Polygons as bare arrays; lines have none.
+/// Polygons as bare arrays; points and lines have none.
 fn rings(out: &mut Vec<u8>, shape: &Shape) {
     let Shape::Polygons(polygons) = shape else { return };
     match &polygons[..] {

@@ -1,5 +1,7 @@
+mod clearance;
 mod offset;
 
+pub use clearance::ClearanceArgs;
 pub use offset::OffsetArgs;
 
 use crate::failure::{Failure, Status};
@@ -45,6 +47,8 @@ pub enum Command {
     Centerline(CenterlineArgs),
     /// Compute parallel curves of polygons, inward or outward
     Offset(OffsetArgs),
+    /// Find where polygons are narrow, or near one another, and their largest inscribed disks
+    Clearance(ClearanceArgs),
     /// Compute the Voronoi diagram of the boundary elements of polygons
     Voronoi(VoronoiArgs),
     /// Find what of the boundary of polygons is nearest to a point

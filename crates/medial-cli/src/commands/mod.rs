@@ -2,6 +2,7 @@ pub mod axis;
 pub mod branches;
 pub mod centerline;
 pub mod check;
+pub mod clearance;
 pub mod compare;
 pub mod compress;
 mod features;

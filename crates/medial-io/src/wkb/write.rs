@@ -47,6 +47,10 @@ pub fn write(axis: &MedialAxis, drawing: Drawing) -> Vec<u8> {
 /// A shape.
 pub(crate) fn shape(out: &mut Vec<u8>, shape: &Shape) {
     match shape {
+        Shape::Point(p) => {
+            head(out, POINT);
+            point(out, *p, None);
+        }
         Shape::Line(points) => {
             head(out, LINE);
             count(out, points.len());

@@ -47,6 +47,10 @@ pub(crate) fn shape(out: &mut String, shape: &Shape) {
         group(out, ring.iter().chain(ring.first()), |out, &p| point(out, p, None));
     };
     match shape {
+        Shape::Point(p) => {
+            out.push_str("POINT ");
+            group(out, [p], |out, &p| point(out, p, None));
+        }
         Shape::Line(points) => {
             out.push_str("LINESTRING ");
             group(out, points, |out, &p| point(out, p, None));

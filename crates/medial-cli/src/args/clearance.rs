@@ -1,0 +1,43 @@
+use super::{Common, Region, Target, engine, positive};
+use clap::Args;
+use medial::axis::Engine;
+use std::path::PathBuf;
+
+const CLEARANCE_HELP: &str = "\
+A neck is where the axis is nearer to the boundary than anywhere near: inside a place where the polygons are
+narrow, outside (--side exterior) a place where two of them, or two parts of one, are near each other. Each
+is a line between the two elements, which are named; the narrowest come first. Between parallel edges it
+may be as long as a passage, and is drawn in its middle.
+Two elements that one tiny edge joins are near without a neck; polygons may have edges shorter than --min.
+
+Formats: geojson, geojsonl, csv, wkt, wkb.
+
+Examples:
+  medial clearance fixtures/river.geojson --min 2 -o narrow.geojson
+  medial clearance fixtures/lake.rings --side exterior --min 1 --to csv
+  medial clearance fixtures/river.geojson --largest --to csv
+
+Exit status: 0 all done; 1 no usable result; 2 wrong usage; 3 some features were left out.";
+
+/// Arguments of `medial clearance`.
+#[derive(Debug, Args)]
+#[command(after_help = CLEARANCE_HELP)]
+pub struct ClearanceArgs {
+    /// Polygons: GeoJSON, GeoJSON lines, WKT, WKB or rings; `-` for standard input
+    pub input: PathBuf,
+    #[command(flatten)]
+    pub target: Target,
+    /// Write necks narrower than this only, in units of the input
+    #[arg(long, value_name = "W", value_parser = positive, allow_negative_numbers = true)]
+    pub min: Option<f64>,
+    /// Write the largest inscribed disks instead: points, with twice the radius as width
+    #[arg(long, conflicts_with_all = ["min", "side", "frame"])]
+    pub largest: bool,
+    /// Who computes the axis: path_tracing, divide_and_conquer
+    #[arg(long, value_name = "NAME", default_value = "path_tracing", value_parser = engine)]
+    pub engine: Engine,
+    #[command(flatten)]
+    pub region: Region,
+    #[command(flatten)]
+    pub common: Common,
+}
