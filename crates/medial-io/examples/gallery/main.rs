@@ -18,6 +18,7 @@ mod lee_8;
 mod lee_9_11;
 mod lesson;
 mod letter;
+mod offsets;
 mod pruned;
 mod shape;
 mod sheet;
@@ -60,7 +61,7 @@ const LESSONS: [Lesson; 12] = [
 ];
 
 /// Pictures besides, each in a file of its name.
-const PICTURES: [(&str, Lesson); 14] = [
+const PICTURES: [(&str, Lesson); 15] = [
     ("lee-1-2", lee_1_2::LESSON),
     ("voronoi", voronoi::LESSON),
     ("both-sides", both_sides::LESSON),
@@ -75,6 +76,7 @@ const PICTURES: [(&str, Lesson); 14] = [
     ("branches", branches::LESSON),
     ("smooth", smooth::LESSON),
     ("compress", compress::LESSON),
+    ("offsets", offsets::LESSON),
 ];
 
 const HEAD: &str = "\
