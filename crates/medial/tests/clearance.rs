@@ -7,6 +7,7 @@ use medial::domain::{self, Corner, Domain};
 use medial::engine::{Options, exterior, path_tracing};
 use medial::geom::Point;
 use medial::ops::{Neck, largest_disks, necks};
+use support::plane::{distance, is_inside};
 use support::random::{self, Family, Ground, Random};
 use support::shapes;
 
@@ -89,16 +90,6 @@ fn a_tiny_edge_makes_its_neighbours_near_without_a_neck() {
     assert_eq!(inside(&cut), []);
 }
 
-/// The distance of a point from the boundary.
-fn distance(domain: &Domain, p: Point) -> f64 {
-    let to = |k: u32| {
-        let (a, b) = (domain.edge(k).start, domain.end(k));
-        let along = ((p - a).dot(b - a) / (b - a).norm2()).clamp(0.0, 1.0);
-        (p - (a + (b - a) * along)).norm()
-    };
-    (0..domain.edges().len() as u32).map(to).fold(f64::INFINITY, f64::min)
-}
-
 /// Middles and widths of the places inside where two elements face each other with nothing between: corners
 /// and corners, corners and edges. Second, whether some place is too close to a tie to tell.
 fn faced(domain: &Domain) -> (Vec<(Point, f64)>, bool) {
@@ -155,14 +146,6 @@ fn touched(domain: &Domain, centre: Point, radius: f64) -> bool {
         }
     }
     feet.len() > 2
-}
-
-fn is_inside(domain: &Domain, p: Point) -> bool {
-    let crosses = |k: u32| {
-        let (a, b) = (domain.edge(k).start, domain.end(k));
-        (a.y <= p.y) != (b.y <= p.y) && ((b - a).cross(p - a) > 0.0) == (b.y > a.y)
-    };
-    (0..domain.edges().len() as u32).filter(|&k| crosses(k)).count() % 2 == 1
 }
 
 fn judge(domain: &Domain, axis: &MedialAxis) -> bool {

@@ -9,6 +9,7 @@ use medial::domain::{self, Domain};
 use medial::engine::{Options, exterior, interior, path_tracing};
 use medial::geom::Point;
 use medial::ops::{Hierarchy, Measure, OffsetError, Outline, OutlinePiece, offset_margin, offsets};
+use support::plane::distance;
 use support::random::{self, Family, Ground, Random};
 use support::shapes;
 
@@ -154,16 +155,6 @@ fn what_cannot_be_done_is_told() {
     assert!(offsets(&bay, &near, &[1.0]).is_ok());
     let error = offsets(&bay, &near, &[9.0]).unwrap_err();
     assert!(matches!(error, OffsetError::Frame { .. }), "{error}");
-}
-
-/// The distance of a point from the boundary.
-fn distance(domain: &Domain, p: Point) -> f64 {
-    let to = |k: u32| {
-        let (a, b) = (domain.edge(k).start, domain.end(k));
-        let along = ((p - a).dot(b - a) / (b - a).norm2()).clamp(0.0, 1.0);
-        (p - (a + (b - a) * along)).norm()
-    };
-    (0..domain.edges().len() as u32).map(to).fold(f64::INFINITY, f64::min)
 }
 
 /// How often rings wind around a point.

@@ -181,21 +181,7 @@ impl<'a> Hierarchy<'a> {
     /// # Errors
     /// If the axis is not exact, or pruned, or not of this domain.
     pub fn new(domain: &'a Domain, axis: &'a MedialAxis) -> Result<Self, HierarchyError> {
-        // Where a frame cuts paths nothing burns, so what does has all of its leaves.
-        let is_cut = axis.side == Side::Exterior
-            && axis.keypoints().iter().all(|keypoint| keypoint.kind != KeypointKind::Tip);
-        if !(axis.complete || is_cut) || axis.accuracy != Accuracy::Exact {
-            return Err(HierarchyError::Incomplete);
-        }
-        let frame = match axis.side {
-            Side::Interior => Rect::EMPTY,
-            Side::Exterior => {
-                exterior_frame(domain, None).map_err(|_| HierarchyError::NoOutside)?
-            }
-        };
-        let ground = Ground::new(domain, axis.side, &frame).ok_or(HierarchyError::NoOutside)?;
-        let unknown = |name| HierarchyError::UnknownSite { name };
-        let governors = ground.governors(axis).map_err(unknown)?;
+        let (ground, governors) = grounded(domain, axis)?;
         let edges = ground.domain().edges();
         let mut before = vec![0.0; edges.len()];
         for walk in ground.domain().walks() {
@@ -403,6 +389,30 @@ impl<'a> Hierarchy<'a> {
         });
         rest.finish(&self.fire.roots, &lost)
     }
+}
+
+/// The side of the boundary that a complete exact axis is of, and the element behind each of its sites.
+///
+/// # Errors
+/// If the axis is not exact, or pruned, or not of this domain.
+pub(super) fn grounded<'a>(
+    domain: &'a Domain,
+    axis: &MedialAxis,
+) -> Result<(Ground<'a>, Vec<Site>), HierarchyError> {
+    // Where a frame cuts paths nothing burns, so what does has all of its leaves.
+    let is_cut = axis.side == Side::Exterior
+        && axis.keypoints().iter().all(|keypoint| keypoint.kind != KeypointKind::Tip);
+    if !(axis.complete || is_cut) || axis.accuracy != Accuracy::Exact {
+        return Err(HierarchyError::Incomplete);
+    }
+    let frame = match axis.side {
+        Side::Interior => Rect::EMPTY,
+        Side::Exterior => exterior_frame(domain, None).map_err(|_| HierarchyError::NoOutside)?,
+    };
+    let ground = Ground::new(domain, axis.side, &frame).ok_or(HierarchyError::NoOutside)?;
+    let unknown = |name| HierarchyError::UnknownSite { name };
+    let governors = ground.governors(axis).map_err(unknown)?;
+    Ok((ground, governors))
 }
 
 /// Looks for the farthest corner of a walk, in a cyclic range in two parts.

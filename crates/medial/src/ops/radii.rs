@@ -7,12 +7,11 @@
 use std::cmp::Ordering;
 
 use super::ground::Ground;
-use super::hierarchy::HierarchyError;
-use crate::axis::{Accuracy, Curve, KeypointKind, MedialAxis, Path, Side};
+use super::hierarchy::{HierarchyError, grounded};
+use crate::axis::{Curve, MedialAxis, Path};
 use crate::domain::{Corner, Domain, Site};
-use crate::engine::exterior_frame;
+use crate::geom::cross_directions;
 use crate::geom::predicates::{Element, ExactDisk, compare_gap};
-use crate::geom::{Rect, cross_directions};
 
 /// How far, as a share, a radius in doubles may be from the true one at most.
 ///
@@ -39,20 +38,7 @@ impl<'a> Radii<'a> {
     /// # Errors
     /// If the axis is not exact, or pruned, or not of this domain.
     pub fn new(domain: &'a Domain, axis: &'a MedialAxis) -> Result<Self, HierarchyError> {
-        let is_cut = axis.side == Side::Exterior
-            && axis.keypoints().iter().all(|keypoint| keypoint.kind != KeypointKind::Tip);
-        if !(axis.complete || is_cut) || axis.accuracy != Accuracy::Exact {
-            return Err(HierarchyError::Incomplete);
-        }
-        let frame = match axis.side {
-            Side::Interior => Rect::EMPTY,
-            Side::Exterior => {
-                exterior_frame(domain, None).map_err(|_| HierarchyError::NoOutside)?
-            }
-        };
-        let ground = Ground::new(domain, axis.side, &frame).ok_or(HierarchyError::NoOutside)?;
-        let governors =
-            ground.governors(axis).map_err(|name| HierarchyError::UnknownSite { name })?;
+        let (ground, governors) = grounded(domain, axis)?;
         let least = axis.paths().iter().map(|path| axis.curve(&path).radius_min()).collect();
         Ok(Self { axis, ground, governors, least })
     }

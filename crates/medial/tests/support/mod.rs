@@ -6,5 +6,6 @@
 pub mod brute_force;
 pub mod compare;
 pub mod parts;
+pub mod plane;
 pub mod random;
 pub mod shapes;
