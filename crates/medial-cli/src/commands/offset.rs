@@ -1,6 +1,6 @@
-use super::axis::format_of;
 use super::features::Run;
-use super::sink::{Sink, boundary, title};
+use super::records::Plan;
+use super::sink::{boundary, title};
 use crate::args::OffsetArgs;
 use crate::failure::{Failure, Status};
 use crate::report::Entry;
@@ -15,14 +15,39 @@ use std::time::Duration;
 
 const COLUMNS: &[&str] = &["distance", "area", "length", "n_polygons", "n_holes"];
 
+/// Formats that keep arcs.
+const EXACT: &[Format] = &[Format::Json, Format::Svg];
+
+/// Formats of polygons, and those.
+const FORMATS: &[Format] = &[
+    Format::GeoJson,
+    Format::GeoJsonLines,
+    Format::Csv,
+    Format::Wkt,
+    Format::Wkb,
+    Format::Rings,
+    Format::Json,
+    Format::Svg,
+];
+
 /// `medial offset`.
 pub fn run(args: &OffsetArgs) -> Result<Status, Failure> {
     let mut run = Run::new(&args.common)?;
-    let format = output_format(args)?;
+    let plan = Plan {
+        target: &args.target,
+        thing: "offsets",
+        formats: FORMATS,
+        columns: COLUMNS,
+        engine: args.engine,
+    };
+    let format = plan.format()?;
+    if args.tolerance.is_some() && EXACT.contains(&format) {
+        let why = format!("--tolerance is for polylines; arcs are exact in {format}");
+        return Err(Failure::Usage(why));
+    }
     let input = run.open(&args.input)?;
     let layer = timed(&mut run.stages.read, || input.layer())?;
-    let output = args.target.output.as_deref();
-    let mut sink = Sink::create(output, format, record::header(COLUMNS), layer.crs.clone())?;
+    let mut sink = plan.sink(format, layer.crs.clone())?;
     let mut pictures = Vec::new();
     let mut write = Duration::ZERO;
     let (at_once, threads) = run.threads(&layer);
@@ -109,27 +134,4 @@ fn record(distance: f64, outline: &Outline, tolerance: f64) -> Record {
         n_holes.into(),
     ];
     Record { values, shape: Shape::Polygons(polygons) }
-}
-
-/// The format of the output, if offsets and the other options have it.
-fn output_format(args: &OffsetArgs) -> Result<Format, Failure> {
-    let file = args.target.output.as_deref().filter(|path| path.as_os_str() != "-");
-    let format = format_of(args.target.to, file)?;
-    let usage = |why: String| Err(Failure::Usage(why));
-    let exact = [Format::Json, Format::Svg];
-    if !exact.contains(&format) && !record::FORMATS.contains(&format) {
-        let names = record::FORMATS.iter().chain(&exact).map(|format| format.name());
-        let names = names.collect::<Vec<_>>().join(", ");
-        return usage(format!("offsets are written as {names}, not as {format}"));
-    }
-    if args.tolerance.is_some() && exact.contains(&format) {
-        return usage(format!("--tolerance is for polylines; arcs are exact in {format}"));
-    }
-    if format == Format::Wkb
-        && file.is_none()
-        && std::io::IsTerminal::is_terminal(&std::io::stdout())
-    {
-        return usage("a terminal shows no wkb; name a file with -o".to_owned());
-    }
-    Ok(format)
 }

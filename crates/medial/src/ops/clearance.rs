@@ -153,7 +153,7 @@ fn place(
         let path = axis.paths().at(number);
         return Some(neck_at(axis, &path, middle, width, 0.0, vec![number]));
     }
-    let way = in_a_row(axis, &level);
+    let way = in_a_row(radii, axis, at, &level);
     let lengths: Vec<f64> = way.iter().map(|path| axis.curve(path).length()).collect();
     let length: f64 = lengths.iter().sum();
     let (mut along, mut k) = (0.5 * length, 0);
@@ -168,16 +168,19 @@ fn place(
 
 /// Level paths in the order of the passage through which they lead, from its end with the lesser number:
 /// no three meet, as their edges would need three directions.
-fn in_a_row(axis: &MedialAxis, level: &[u32]) -> Vec<Path> {
-    let mut paths: Vec<Path> = level.iter().map(|&k| axis.paths().at(k)).collect();
-    let ends = |k: u32| paths.iter().filter(|path| path.from == k || path.to == k).count();
-    let all = paths.iter().flat_map(|path| [path.from, path.to]);
-    let mut at = all.clone().filter(|&k| ends(k) == 1).min().or(all.min()).unwrap_or_default();
-    let mut way = Vec::with_capacity(paths.len());
-    while let Some(k) = paths.iter().position(|path| path.from == at || path.to == at) {
-        let path = paths.swap_remove(k);
-        let path = if path.from == at { path } else { path.reversed() };
-        at = path.to;
+fn in_a_row(radii: &Radii<'_>, axis: &MedialAxis, at: &Groups, level: &[u32]) -> Vec<Path> {
+    let path = |k: u32| axis.paths().at(k);
+    let levels = |k: u32| at.of(k).iter().copied().filter(|&p| radii.is_level(&path(p)));
+    let all = level.iter().flat_map(|&k| [path(k).from, path(k).to]);
+    let end = all.clone().filter(|&k| levels(k).count() == 1).min();
+    let mut keypoint = end.or(all.min()).unwrap_or_default();
+    let mut way = Vec::with_capacity(level.len());
+    let mut last = None;
+    while way.len() < level.len() {
+        let Some(next) = levels(keypoint).find(|&k| Some(k) != last) else { break };
+        let path = path(next);
+        let path = if path.from == keypoint { path } else { path.reversed() };
+        (keypoint, last) = (path.to, Some(next));
         way.push(path);
     }
     way
