@@ -23,6 +23,7 @@ use std::cmp::Ordering;
 use std::collections::HashMap;
 
 use super::ground::Ground;
+use super::groups::Trees;
 use super::hierarchy::HierarchyError;
 use super::outline::{Contour, Outline, OutlineError, OutlinePiece, OutlinePolygon, Sense, Turns};
 use super::radii::{Radii, falls_to};
@@ -272,17 +273,17 @@ impl<'s, 'a> Level<'s, 'a> {
     /// What is not farther than the distance outside.
     fn outside(&mut self) -> Result<Outline, OffsetError> {
         let shape = self.shape;
-        let mut parents: Vec<u32> = (0..shape.n_components as u32).collect();
+        let mut joined = Trees::new(shape.n_components);
         for (number, path) in (0..).zip(shape.axis.paths()) {
             let [left, right] = [path.left, path.right].map(|s| shape.radii.governor(s));
             let [left, right] = [left, right].map(|s| shape.component(s));
             if left != right && !self.is_kept(2 * number) {
-                join(&mut parents, left, right);
+                joined.join(left, right);
             }
         }
         let mut contours: Vec<Vec<Contour>> = vec![Vec::new(); shape.n_components];
         let mut add = |(contour, of): (Contour, Site)| {
-            let component = root(&mut parents, shape.component(of));
+            let component = joined.root(shape.component(of));
             contours[component as usize].push(contour.reversed());
         };
         if let Some(walk) = shape.horizon.convex {
@@ -468,20 +469,4 @@ fn in_order(contours: impl IntoIterator<Item = Vec<Contour>>) -> Vec<OutlinePoly
 
 fn disordered(keypoint: u32) -> OffsetError {
     OutlineError::Disordered { keypoint }.into()
-}
-
-/// The root of a tree of components.
-fn root(parents: &mut [u32], component: u32) -> u32 {
-    let mut at = component;
-    while parents[at as usize] != at {
-        parents[at as usize] = parents[parents[at as usize] as usize];
-        at = parents[at as usize];
-    }
-    at
-}
-
-/// Makes two components one; the least of them is the root.
-fn join(parents: &mut [u32], one: u32, other: u32) {
-    let [one, other] = [one, other].map(|component| root(parents, component));
-    parents[one.max(other) as usize] = one.min(other);
 }

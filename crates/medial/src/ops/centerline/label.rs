@@ -21,6 +21,7 @@
 
 use std::f64::consts::{PI, TAU};
 
+use super::super::groups::Trees;
 use super::graph::{Graph, NONE, Pieces, Way};
 use super::simplify::kept;
 use crate::axis::{Curve, MedialAxis};
@@ -77,31 +78,6 @@ fn bent(pieces: &mut Pieces, path: u32, curve: &Curve, [from, to]: [f64; 2], hei
     let at = |k: u32| if k == n { to } else { from + (to - from) * f64::from(k) / f64::from(n) };
     let at: Vec<f64> = (0..=n).map(at).collect();
     pieces.add(path, &at);
-}
-
-/// Which nodes are joined, as a forest.
-struct Trees(Vec<u32>);
-
-impl Trees {
-    fn new(n: usize) -> Self {
-        Self((0..n as u32).collect())
-    }
-
-    fn root(&mut self, mut node: u32) -> u32 {
-        while self.0[node as usize] != node {
-            let above = self.0[node as usize];
-            self.0[node as usize] = self.0[above as usize];
-            node = above;
-        }
-        node
-    }
-
-    /// Joins two nodes; false if they were joined already.
-    fn join(&mut self, a: u32, b: u32) -> bool {
-        let (a, b) = (self.root(a), self.root(b));
-        self.0[a as usize] = b;
-        a != b
-    }
 }
 
 /// The best way through a component, which is a tree.
