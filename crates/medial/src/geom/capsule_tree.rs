@@ -21,7 +21,7 @@
 
 use std::sync::OnceLock;
 
-use super::lanes::{FAN, Lanes, Node, Query, VANISHING, Wide};
+use super::lanes::{FAN, Lanes, Node, Query, SIZE, VANISHING, Wide};
 use super::rims::{Hoop, Pinned, Rim, SOME, circle};
 use super::{Point, Rect, hilbert};
 
@@ -108,7 +108,7 @@ pub struct CapsuleTree {
     /// First edge.
     base: u32,
     n_edges: u32,
-    /// Power of two that brings lengths to about one.
+    /// Power of two that brings lengths to about [`super::lanes::SIZE`].
     scale: f64,
     /// Rounding of the coordinates themselves, in those lengths.
     slack: f32,
@@ -160,7 +160,7 @@ impl CapsuleTree {
         let bounds = box_of((base..base + n_edges).map(|k| ends(k).0));
         let ends = |k: u32| ends(order.as_ref().map_or(base + k, |order| order[k as usize]));
         let size = (bounds.max.x - bounds.min.x).max(bounds.max.y - bounds.min.y);
-        let scale = power_of_two_near(size);
+        let scale = inverse_power_of_two(size) * SIZE;
         let largest = [bounds.min.x, bounds.min.y, bounds.max.x, bounds.max.y];
         let largest = largest.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
         let slack = (64.0 * f64::EPSILON * largest * scale) as f32 + VANISHING;
@@ -468,7 +468,7 @@ fn box_of(points: impl Iterator<Item = Point>) -> Rect {
 }
 
 /// A power of two whose product with `size` is about one.
-fn power_of_two_near(size: f64) -> f64 {
+fn inverse_power_of_two(size: f64) -> f64 {
     let exponent = (size.to_bits() >> 52) & 0x7ff;
     // The largest size is below 2^202, the least above 2^-254.
     f64::from_bits((2046_u64.saturating_sub(exponent)).clamp(1, 2046) << 52)
@@ -594,6 +594,7 @@ mod tests {
         shows_what_is_within(Point::new(1e9, -3e9), 1e3);
         shows_what_is_within(Point::new(-7.0, 5.0), 1e-6);
         shows_what_is_within(Point::new(1e30, 0.0), 1e30);
+        shows_what_is_within(Point::new(0.0, 0.0), 1e-30);
     }
 
     #[test]
@@ -613,6 +614,31 @@ mod tests {
         seen.edges.sort_unstable();
         assert_eq!(seen.edges, [2047, 2048]);
         assert!(entered <= 9, "{entered} nodes");
+    }
+
+    #[test]
+    fn a_small_disk_is_shown_little_of_a_walk_over_thirty_decades() {
+        // A wedge towards the origin, with sixteen corners while the distance from it halves.
+        let n = 3200_u32;
+        let away = |step: u32| (f64::from(step) / -16.0).exp2();
+        let corner = |k: u32| {
+            let (step, y) = if k < n / 2 { (k, 1.0) } else { (n - 1 - k, -1.0) };
+            Point::new(2.0, y) * away(step)
+        };
+        let tree = CapsuleTree::new(0, n, |k| (corner(k), corner((k + 1) % n)));
+        for step in [16, 500, 1000, 1500] {
+            let scope = Scope {
+                centre: corner(step),
+                reach: 0.01 * away(step),
+                normal: Point::default(),
+                border: Point::default(),
+            };
+            let mut seen = Seen { scope, edges: Vec::new() };
+            let entered = tree.visit(Hidden::default(), &mut seen);
+            seen.edges.sort_unstable();
+            assert_eq!(seen.edges, [step - 1, step]);
+            assert!(entered <= 40, "{entered} nodes at corner {step}");
+        }
     }
 
     #[test]

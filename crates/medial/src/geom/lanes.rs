@@ -6,7 +6,8 @@
 //! # Method
 //! Plain loops over eight lanes, which compilers turn into vector instructions. On x86-64 the test is
 //! written once more for AVX2, and taken where the machine has it: the same operations in the same
-//! order, nothing contracted, so both give the same bits.
+//! order, nothing contracted, so both give the same bits. Squares may overflow, of distances and of
+//! limits: what is farther than an infinite limit is never left out.
 //!
 //! # Departures
 //! None.
@@ -26,8 +27,15 @@ const FAR_ROUNDING: f64 = 1.0 / (1_u64 << 44) as f64;
 /// coarse for coordinates relative to its centre.
 const FAR_OUT: f32 = 256.0;
 
-/// Length, of a tree of size one, below which squares in 32 bits vanish.
+/// About the size of a tree in its own lengths, where squares nearly overflow 32 bits: so they vanish
+/// only for what is 10^-35 of the tree.
+pub(super) const SIZE: f64 = (1_u64 << 58) as f64;
+
+/// Length of a tree below which squares in 32 bits vanish.
 pub(super) const VANISHING: f32 = 1e-18;
+
+/// Distance from which it makes no difference to a tree whether a disk's centre is farther still.
+const FARTHEST: f64 = 1e36;
 
 /// Length of a run, in widths of it, from which its capsule is as thin as can be, though a little
 /// longer: flat disks reach far along a straight run, and meet all of it that is too wide.
@@ -299,7 +307,7 @@ impl Lanes {
         let level = (distance - reach) * (distance + reach) * (0.5 * inverse);
         let margin = f64::from(ROUNDING * extent + query.slack) + FAR_ROUNDING * (distance + reach);
         let level = (level - margin) as f32;
-        let (d, bend) = (distance as f32, (0.5 * inverse) as f32);
+        let (d, bend) = (distance.min(FARTHEST) as f32, (0.5 * inverse) as f32);
         let widen = (reach * inverse) as f32 * (1.0 + ROUNDING);
         let limit = each(|k| {
             let (cx, cy) = (self.x[k], self.y[k]);

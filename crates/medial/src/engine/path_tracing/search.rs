@@ -9,7 +9,7 @@ use std::cell::{Cell, OnceCell};
 use std::collections::BTreeSet;
 use std::sync::{Arc, OnceLock};
 
-use super::chain::Passed;
+use super::chain::{POOR, Passed};
 use super::contacts::Contacts;
 use super::course::Course;
 use super::finish::Traced;
@@ -121,6 +121,10 @@ pub(super) const SLACK: f64 = 1e-9;
 /// Tries after which the engine gives up rather than hang; each one moves strictly backwards on
 /// the path or bans a site, so none of the shapes met comes near.
 const MOST_TRIES: usize = 100_000;
+
+/// Bound of a disk, as a share of the size of the polygon, from which it is not looked into: it is
+/// larger than the polygon then, as its bound is a small share of its radius.
+const HAZY: f64 = 1.0 / (1 << 20) as f64;
 
 /// Sites that the last resort weighs before it takes in all there are.
 const WIDEST: usize = 64;
@@ -479,6 +483,12 @@ impl<'a> Search<'a> {
                 best = self.proposal_or_exact(gap, first);
                 continue;
             }
+            if disk.bound > HAZY * self.largest {
+                // Far larger than the polygon, so not in it, and nearly all edges are in doubt.
+                self.rule_out(proposal.site, &mut seen);
+                best = None;
+                continue;
+            }
             let position = gap.course(self.domain).position(&disk);
             let start = (&gap.start, &[][..]);
             let mut verify = Verify::certified(self, gap, start, triple, disk, floating);
@@ -512,20 +522,8 @@ impl<'a> Search<'a> {
                     }
                 }
                 Verdict::OffEdge => {
-                    // The third governor's line is touched beyond its end.
-                    self.banned.push(proposal.site);
-                    seen.remove(proposal.site);
+                    self.rule_out(proposal.site, &mut seen);
                     best = None;
-                    if proposal.site.is_edge() {
-                        let k = proposal.site.index();
-                        for s in
-                            [self.domain.ahead(Site::edge(k)), self.domain.behind(Site::edge(k))]
-                        {
-                            if !self.banned.contains(&s) {
-                                seen.insert(s);
-                            }
-                        }
-                    }
                 }
                 Verdict::Clear(contacts) => {
                     if self.rings.is_some()
@@ -541,6 +539,20 @@ impl<'a> Search<'a> {
             }
         }
         Err(self.broken(gap))
+    }
+
+    /// Takes note that the line of a third governor is touched beyond its end.
+    fn rule_out(&mut self, site: Site, seen: &mut Met) {
+        self.banned.push(site);
+        seen.remove(site);
+        if site.is_edge() {
+            let edge = Site::edge(site.index());
+            for next in [self.domain.ahead(edge), self.domain.behind(edge)] {
+                if !self.banned.contains(&next) {
+                    seen.insert(next);
+                }
+            }
+        }
     }
 
     /// Exact arithmetic over all sites near the path, farther out with every round.
@@ -619,10 +631,12 @@ impl<'a> Search<'a> {
         guess: &TouchingDisk,
     ) -> Option<(TouchingDisk, Option<ExactDisk>)> {
         let governors = self.domain.governors(*triple);
-        if let Some(disk) = guess.certified(&governors) {
-            return Some((disk, None));
-        }
-        let exact = self.exact(triple)?;
+        let exact = match guess.certified(&governors) {
+            Some(disk) if disk.bound <= POOR * disk.radius => return Some((disk, None)),
+            // Edges by the thousand may be in doubt about a disk that is off by more than its radius.
+            Some(disk) => self.certified(triple, &disk),
+            None => self.exact(triple)?,
+        };
         Some((exact.rounded(), Some(exact)))
     }
 
