@@ -122,8 +122,8 @@ pub(super) const SLACK: f64 = 1e-9;
 /// the path or bans a site, so none of the shapes met comes near.
 const MOST_TRIES: usize = 100_000;
 
-/// Bound of a disk, as a share of the size of the polygon, from which it is not looked into: it is
-/// larger than the polygon then, as its bound is a small share of its radius.
+/// Bound of a disk, as a share of the size of the polygon, from which it is not looked into if it is larger
+/// than the polygon.
 const HAZY: f64 = 1.0 / (1 << 20) as f64;
 
 /// Sites that the last resort weighs before it takes in all there are.
@@ -483,8 +483,8 @@ impl<'a> Search<'a> {
                 best = self.proposal_or_exact(gap, first);
                 continue;
             }
-            if disk.bound > HAZY * self.largest {
-                // Far larger than the polygon, so not in it, and nearly all edges are in doubt.
+            if disk.bound > HAZY * self.largest && disk.radius > 2.0 * self.largest + disk.bound {
+                // Too large to lie in the polygon, and so much that nearly all edges are in doubt.
                 self.rule_out(proposal.site, &mut seen);
                 best = None;
                 continue;
