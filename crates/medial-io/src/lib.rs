@@ -28,7 +28,6 @@ mod json;
 mod number;
 mod path;
 mod stream;
-mod stroke;
 mod text;
 
 #[cfg(test)]

@@ -3,10 +3,9 @@
 //! Its JSON Schema is `schema/offset.schema.json` of this crate, also in [`SCHEMA`].
 
 use crate::Feature;
-use crate::stroke::{Stroke, strokes};
 use medial::axis::Engine;
 use medial::geom::Point;
-use medial::ops::{Outline, Sense};
+use medial::ops::{Outline, Sense, Stroke};
 use serde::Serialize;
 use serde_json::value::RawValue;
 
@@ -75,7 +74,7 @@ pub fn write(source: &Feature, engine: Engine, distance: f64, outline: &Outline)
             .iter()
             .map(|polygon| {
                 let contours = polygon.0.iter();
-                contours.map(|c| strokes(c).into_iter().map(record).collect()).collect()
+                contours.map(|c| c.strokes().into_iter().map(record).collect()).collect()
             })
             .collect(),
     };

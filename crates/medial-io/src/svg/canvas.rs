@@ -1,11 +1,10 @@
 use super::Lettering;
 use super::frame::Frame;
 use super::lettering::{strokes, width};
-use crate::stroke::Stroke;
 use crate::text::escaped;
 use medial::axis::Curve;
 use medial::geom::Point;
-use medial::ops::Sense;
+use medial::ops::{Sense, Stroke};
 use std::fmt::Write as _;
 
 /// The text of a picture while it is drawn, in picture coordinates throughout.

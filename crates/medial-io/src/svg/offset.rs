@@ -6,10 +6,9 @@ use super::frame::Frame;
 use super::layers;
 use super::legend;
 use super::palette::{STEPS, color};
-use crate::stroke::{Stroke, strokes};
 use crate::text::escaped;
 use medial::geom::Point;
-use medial::ops::Outline;
+use medial::ops::{Contour, Outline, Stroke};
 
 /// What a picture needs of the parallel curves of a shape.
 #[derive(Clone, Debug)]
@@ -28,7 +27,7 @@ const WIDTH: f64 = 1.2;
 pub fn write_offsets(shapes: &[Parallels], options: &Options) -> String {
     let contours = |shape: &'_ Parallels| -> Vec<Stroke> {
         let polygons = shape.outlines.iter().flat_map(|(_, outline)| &outline.polygons);
-        polygons.flat_map(|polygon| &polygon.0).flat_map(strokes).collect()
+        polygons.flat_map(|polygon| &polygon.0).flat_map(Contour::strokes).collect()
     };
     // Arcs of grown polygons reach beyond their ends.
     let drawn: Vec<Point> = shapes.iter().flat_map(contours).flat_map(extent).collect();
@@ -47,7 +46,7 @@ pub fn write_offsets(shapes: &[Parallels], options: &Options) -> String {
     for (distance, outline) in shapes.iter().flat_map(|shape| &shape.outlines) {
         let mut data = Data::new(&canvas.frame);
         for contour in outline.polygons.iter().flat_map(|polygon| &polygon.0) {
-            data.contour(&strokes(contour));
+            data.contour(&contour.strokes());
         }
         let step = if most > 0.0 { (distance.abs() / most * STEPS as f64) as usize } else { 0 };
         let data = data.text;

@@ -126,6 +126,43 @@ impl Curve {
         Some(focus + tangent * (0.5 * (x1 + x2)) + tangent.perp() * height)
     }
 
+    /// The middle control point of the exact form in space, with the radius as height: a rational quadratic
+    /// Bézier curve whose ends have weight 1. The point, the radius and the weight; `None` between two edges,
+    /// where the curve is a line in space too.
+    ///
+    /// On a parabola the weight is 1; between two corners the curve in space is a hyperbola.
+    ///
+    /// ```
+    /// use medial::axis::{Curve, Site};
+    /// use medial::geom::Point;
+    /// let corners = [-3.0, 3.0].map(|y| Site::vertex(Point::new(0.0, y)));
+    /// let ends = [-4.0, 4.0].map(|x| (Point::new(x, 0.0), 5.0));
+    /// let curve = Curve::new(&corners[1], &corners[0], ends[0], ends[1]);
+    /// let (point, radius, weight) = curve.control_in_space().unwrap();
+    /// assert_eq!(point, Point::new(0.0, 0.0));
+    /// // Both tangents meet at radius 9/5, and the middle of the curve has radius 3.
+    /// assert!((radius - 1.8).abs() < 1e-15 && ((5.0 + weight * radius) / (1.0 + weight) - 3.0).abs() < 1e-15);
+    /// ```
+    #[must_use]
+    pub fn control_in_space(&self) -> Option<(Point, f64, f64)> {
+        match self.form {
+            Form::Linear => None,
+            Form::Parabola { d, x: [x1, x2], .. } => {
+                self.control().map(|control| (control, (x1 * x2 + d * d) / (2.0 * d), 1.0))
+            }
+            Form::Corners { half, s } => {
+                // With s = half sinh t the weight is cosh of half the difference of t.
+                let sinh = Spread::new(half, s).sinh;
+                let square = 0.5 * (1.0 + hypot(1.0, sinh));
+                let at = 0.5 * (s[0] + s[1]) / square;
+                let u = ((at - s[0]) / (s[1] - s[0])).clamp(0.0, 1.0);
+                let u = if u.is_nan() { 0.5 } else { u };
+                let radius = 0.5 * (self.radius_from + self.radius_to) / square;
+                Some((self.point_at(u), radius, square.sqrt()))
+            }
+        }
+    }
+
     /// The point at parameter `u`, 0 at the start and 1 at the end.
     #[must_use]
     pub fn point_at(&self, u: f64) -> Point {
@@ -358,6 +395,11 @@ impl Curve {
         };
         let Self { from, to, radius_from, radius_to, .. } = *self;
         Self { from: to, to: from, radius_from: radius_to, radius_to: radius_from, form }
+    }
+
+    /// The same curve with ends that are its own but for rounding.
+    pub(crate) fn with_ends(self, from: (Point, f64), to: (Point, f64)) -> Self {
+        Self { from: from.0, to: to.0, radius_from: from.1, radius_to: to.1, form: self.form }
     }
 
     /// The distance of `p` from the nearest point of the curve, rounded.

@@ -1,6 +1,7 @@
 //! What is made of an axis.
 
 mod branches;
+mod carve;
 mod centerline;
 mod clearance;
 mod compress;
@@ -21,11 +22,14 @@ mod reconstruct;
 mod rest;
 mod scale;
 mod smooth;
+mod stroke;
 mod voronoi;
+mod walls;
 
 pub use branches::{
     Bend, BoundaryPiece, Branch, BranchPiece, Branches, Extent, Primitive, Trend, branches,
 };
+pub use carve::{CarveError, CarveOptions, Carving, Clearing, Move, Role, Tip, carve};
 pub use centerline::{
     Centerline, CenterlineError, CenterlineOptions, Extension, LineOptions, Route, Widths,
     centerlines, polylines,
@@ -47,7 +51,9 @@ pub use reconstruct::{Disk, ReconstructError, disks, polygons_of, signed_area, t
 pub use reconstruct::{union_of_disks, without_crossings};
 pub use rest::{Origin, Pruned};
 pub use smooth::{SmoothError, Smoothed, smoothed};
+pub use stroke::Stroke;
 pub use voronoi::{
     Cell, Contact, EdgeKind, Located, PointKind, Region, Voronoi, VoronoiEdge, VoronoiError,
     VoronoiPoint,
 };
+pub use walls::{Wall, WallError, WallOptions, thin_walls};

@@ -26,7 +26,7 @@ use super::ground::Ground;
 use super::groups::Trees;
 use super::hierarchy::HierarchyError;
 use super::outline::{Contour, Outline, OutlineError, OutlinePiece, OutlinePolygon, Sense, Turns};
-use super::radii::{Radii, falls_to};
+use super::radii::{Limit, Radii};
 use crate::axis::{KeypointKind, MedialAxis, Side};
 use crate::domain::{Complement, Domain, Site};
 use crate::geom::predicates::Element;
@@ -215,9 +215,7 @@ fn components_outside(domain: &Domain, outside: &Complement) -> Vec<u32> {
 /// A shape at a distance.
 struct Level<'s, 'a> {
     shape: &'s Shape<'a>,
-    distance: f64,
-    /// Which keypoints are farther.
-    farther: Vec<bool>,
+    limit: Limit<'s, 'a>,
     /// Which paths have been passed from a start that is farther.
     is_passed: Vec<bool>,
 }
@@ -230,10 +228,8 @@ struct Break {
 
 impl<'s, 'a> Level<'s, 'a> {
     fn new(shape: &'s Shape<'a>, distance: f64) -> Self {
-        let n = shape.axis.keypoints().len() as u32;
-        let farther = (0..n).map(|k| shape.radii.compare(k, distance).is_gt()).collect();
         let is_passed = vec![false; 2 * shape.axis.paths().len()];
-        Self { shape, distance, farther, is_passed }
+        Self { shape, limit: Limit::more_than(&shape.radii, distance), is_passed }
     }
 
     fn outline(mut self) -> Result<Outline, OffsetError> {
@@ -246,10 +242,11 @@ impl<'s, 'a> Level<'s, 'a> {
     /// What is farther: a polygon for each part of the axis that is connected.
     fn inside(&mut self) -> Result<Outline, OffsetError> {
         let shape = self.shape;
-        let mut is_met = vec![false; self.farther.len()];
+        let n = shape.axis.keypoints().len();
+        let mut is_met = vec![false; n];
         let mut polygons = Vec::new();
-        for start in 0..self.farther.len() as u32 {
-            if !self.farther[start as usize] || std::mem::replace(&mut is_met[start as usize], true)
+        for start in 0..n as u32 {
+            if !self.limit.is_farther(start) || std::mem::replace(&mut is_met[start as usize], true)
             {
                 continue;
             }
@@ -257,7 +254,9 @@ impl<'s, 'a> Level<'s, 'a> {
             while let Some(keypoint) = open.pop() {
                 for &dart in shape.turns.leaving.of(keypoint) {
                     let to = shape.turns.path(dart).to;
-                    if self.is_kept(dart) && !std::mem::replace(&mut is_met[to as usize], true) {
+                    if self.limit.is_whole(dart / 2)
+                        && !std::mem::replace(&mut is_met[to as usize], true)
+                    {
                         open.push(to);
                     }
                     if !self.is_passed[dart as usize] {
@@ -277,7 +276,7 @@ impl<'s, 'a> Level<'s, 'a> {
         for (number, path) in (0..).zip(shape.axis.paths()) {
             let [left, right] = [path.left, path.right].map(|s| shape.radii.governor(s));
             let [left, right] = [left, right].map(|s| shape.component(s));
-            if left != right && !self.is_kept(2 * number) {
+            if left != right && !self.limit.is_whole(number) {
                 joined.join(left, right);
             }
         }
@@ -289,8 +288,8 @@ impl<'s, 'a> Level<'s, 'a> {
         if let Some(walk) = shape.horizon.convex {
             add(self.around(walk));
         }
-        for keypoint in 0..self.farther.len() as u32 {
-            if self.farther[keypoint as usize] {
+        for keypoint in 0..shape.axis.keypoints().len() as u32 {
+            if self.limit.is_farther(keypoint) {
                 for &dart in shape.turns.leaving.of(keypoint) {
                     if !self.is_passed[dart as usize] {
                         add(self.contour(dart)?);
@@ -302,24 +301,6 @@ impl<'s, 'a> Level<'s, 'a> {
         Ok(Outline { polygons: in_order(contours) })
     }
 
-    /// Whether all of a path is farther.
-    fn is_kept(&self, dart: u32) -> bool {
-        let path = self.shape.axis.paths().at(dart / 2);
-        self.farther[path.from as usize]
-            && self.farther[path.to as usize]
-            && self.shape.radii.is_whole(dart / 2, &path, self.distance)
-    }
-
-    /// Where a path whose start is farther comes down to the distance first, if it does.
-    fn cut(&self, dart: u32) -> Option<Point> {
-        if self.is_kept(dart) {
-            return None;
-        }
-        let path = self.shape.turns.path(dart);
-        let curve = self.shape.axis.curve(&path);
-        Some(curve.point_at(falls_to(&curve, self.farther[path.to as usize], self.distance)))
-    }
-
     /// The contour to the right of a path and of what follows, and an element on it.
     fn contour(&mut self, start: u32) -> Result<(Contour, Site), OffsetError> {
         let shape = self.shape;
@@ -329,7 +310,7 @@ impl<'s, 'a> Level<'s, 'a> {
         loop {
             self.is_passed[dart as usize] = true;
             // Down to the distance and back again.
-            if let Some(at) = self.cut(dart) {
+            if let Some((_, at)) = self.limit.falls(dart / 2, &shape.turns.path(dart)) {
                 dart ^= 1;
                 breaks.push(Break { at, after: right(dart) });
             }
@@ -396,7 +377,7 @@ impl<'s, 'a> Level<'s, 'a> {
         let domain = self.shape.radii.domain();
         let edge = domain.edge(if element.is_edge() { element } else { after }.index());
         let corner = domain.edge(after.index()).start;
-        breaks.push(Break { at: corner + edge.direction.perp() * self.distance, after });
+        breaks.push(Break { at: corner + edge.direction.perp() * self.limit.distance(), after });
         after
     }
 
@@ -425,7 +406,7 @@ impl<'s, 'a> Level<'s, 'a> {
             let centre = self.shape.radii.domain().edge(site.index()).start;
             let arc = OutlinePiece::Arc {
                 centre,
-                radius: self.distance,
+                radius: self.limit.distance(),
                 from,
                 to,
                 sense: Sense::Clockwise,

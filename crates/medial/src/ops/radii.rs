@@ -10,8 +10,8 @@ use super::ground::Ground;
 use super::hierarchy::{HierarchyError, grounded};
 use crate::axis::{Curve, MedialAxis, Path};
 use crate::domain::{Corner, Domain, Site};
-use crate::geom::cross_directions;
 use crate::geom::predicates::{Element, ExactDisk, compare_gap};
+use crate::geom::{Point, cross_directions};
 
 /// How far, as a share, a radius in doubles may be from the true one at most.
 ///
@@ -127,19 +127,6 @@ impl<'a> Radii<'a> {
         }
     }
 
-    /// Whether all of a path is farther from the boundary than a distance, if its ends are.
-    pub fn is_whole(&self, number: u32, path: &Path, distance: f64) -> bool {
-        if self.least(number) > distance * (1.0 + DOUBT) {
-            return true;
-        }
-        let elements = self.elements(path);
-        if let [Element::Edge(..), Element::Edge(..)] = elements {
-            return true;
-        }
-        // Twice a double is one.
-        compare_gap(elements[0], elements[1], 2.0 * distance).is_gt() || !self.has_neck(path)
-    }
-
     /// Whether the place where its governors are nearest to each other lies inside a path: where a parabola
     /// passes the foot of its focus, or a line between two corners that between them.
     pub fn has_neck(&self, path: &Path) -> bool {
@@ -190,9 +177,110 @@ impl<'a> Radii<'a> {
     }
 }
 
+/// A distance, and what of an axis is farther from the boundary.
+pub(super) struct Limit<'r, 'a> {
+    radii: &'r Radii<'a>,
+    distance: f64,
+    /// Whether what is just as far is taken to be farther.
+    at_least: bool,
+    farther: Vec<bool>,
+}
+
+impl<'r, 'a> Limit<'r, 'a> {
+    /// What is farther than a distance.
+    pub fn more_than(radii: &'r Radii<'a>, distance: f64) -> Self {
+        Self::new(radii, distance, false)
+    }
+
+    /// What is at least as far.
+    pub fn at_least(radii: &'r Radii<'a>, distance: f64) -> Self {
+        Self::new(radii, distance, true)
+    }
+
+    fn new(radii: &'r Radii<'a>, distance: f64, at_least: bool) -> Self {
+        let n = radii.axis.keypoints().len() as u32;
+        let mut limit = Self { radii, distance, at_least, farther: Vec::new() };
+        limit.farther = (0..n).map(|k| limit.is_over(radii.compare(k, distance))).collect();
+        limit
+    }
+
+    fn is_over(&self, order: Ordering) -> bool {
+        order.is_gt() || self.at_least && order.is_eq()
+    }
+
+    pub fn distance(&self) -> f64 {
+        self.distance
+    }
+
+    /// Whether a keypoint is farther.
+    pub fn is_farther(&self, keypoint: u32) -> bool {
+        self.farther[keypoint as usize]
+    }
+
+    /// Whether all of a path is farther.
+    pub fn is_whole(&self, number: u32) -> bool {
+        let path = self.radii.axis.paths().at(number);
+        if !self.is_farther(path.from) || !self.is_farther(path.to) {
+            return false;
+        }
+        if self.radii.least(number) > self.distance * (1.0 + DOUBT) {
+            return true;
+        }
+        let elements = self.radii.elements(&path);
+        if let [Element::Edge(..), Element::Edge(..)] = elements {
+            return true;
+        }
+        // Twice a double is one.
+        self.is_over(compare_gap(elements[0], elements[1], 2.0 * self.distance))
+            || !self.radii.has_neck(&path)
+    }
+
+    /// Where a path, in the direction given, comes down to the distance first: a parameter and the point
+    /// there. None if its start is not farther, or all of it is.
+    pub fn falls(&self, number: u32, path: &Path) -> Option<(f64, Point)> {
+        if !self.is_farther(path.from) || self.is_whole(number) {
+            return None;
+        }
+        let curve = self.radii.axis.curve(path);
+        let u = falls_to(&curve, self.is_farther(path.to), self.distance);
+        Some((u, curve.point_at(u)))
+    }
+
+    /// What of a path is not farther; none if all is. Its ends are keypoints, or the points of
+    /// [`Limit::falls`] with the distance as radius.
+    pub fn rest(&self, number: u32) -> Option<Curve> {
+        if self.is_whole(number) {
+            return None;
+        }
+        let path = self.radii.axis.paths().at(number);
+        let curve = self.radii.axis.curve(&path);
+        let from = self.falls(number, &path);
+        let to = self.falls(number, &path.reversed());
+        let first = from.map_or(0.0, |cut| cut.0);
+        let last = to.map_or(1.0, |cut| 1.0 - cut.0).max(first);
+        let at = |cut: Option<(f64, Point)>, end: (Point, f64)| {
+            cut.map_or(end, |(_, point)| (point, self.distance))
+        };
+        let start = at(from, (curve.from(), curve.radius_from()));
+        let end = at(to, (curve.to(), curve.radius_to()));
+        Some(curve.piece(first, last).with_ends(start, end))
+    }
+
+    /// Between which parameters a path is not farther; none if all is.
+    pub fn within(&self, number: u32) -> Option<[f64; 2]> {
+        if self.is_whole(number) {
+            return None;
+        }
+        let path = self.radii.axis.paths().at(number);
+        let first = self.falls(number, &path).map_or(0.0, |cut| cut.0);
+        let last = self.falls(number, &path.reversed()).map_or(1.0, |cut| 1.0 - cut.0);
+        Some([first, last.max(first)])
+    }
+}
+
 /// The parameter at which a curve, from a start that is farther from the boundary than a distance, first comes
 /// down to it; it does so on its way to its end, or if that is farther as well, to its neck.
-pub(super) fn falls_to(curve: &Curve, end_is_farther: bool, distance: f64) -> f64 {
+fn falls_to(curve: &Curve, end_is_farther: bool, distance: f64) -> f64 {
     // Rounded, it may reach the distance at an end only.
     let end = curve.neck().filter(|_| end_is_farther).unwrap_or(1.0);
     if curve.radius_from() <= distance {

@@ -1,0 +1,340 @@
+//! The order of moves: trails through a graph of them, with few lifts between.
+//!
+//! # Method
+//! 1. Where an odd number of moves meet, a trail begins or ends, or a move there is gone over once more. What
+//!    is gone over again costs its length, a lift as much as it is said to. Over a spanning tree of each
+//!    component the cheapest choice is found from the leaves inwards, the first trail being free.
+//! 2. The places left over are joined in pairs, as they follow one another in the tree, by lifts. Then all
+//!    is even, and one round tour takes every move (Hierholzer); cut at the lifts it is the trails.
+//! 3. Components follow one another along a space-filling curve.
+
+use std::collections::HashMap;
+
+use super::moves::{Move, Tip};
+use crate::geom::{Rect, hilbert};
+
+/// A move and whether it runs from its end to its start.
+pub(super) type Turned = (u32, bool);
+
+/// A graph of moves, by the places where they meet.
+struct Graph {
+    ends: Vec<[u32; 2]>,
+    lengths: Vec<f64>,
+    /// Moves at each node.
+    at: Vec<Vec<u32>>,
+    places: Vec<Tip>,
+}
+
+/// Trails over some moves, each of them taken once at least, in the order in which they are to be cut.
+pub(super) fn trails(moves: &[Move], lift: f64) -> Vec<Vec<Turned>> {
+    let graph = Graph::new(moves);
+    let mut is_met = vec![false; graph.at.len()];
+    let mut tours = Vec::new();
+    for root in 0..graph.at.len() as u32 {
+        if !is_met[root as usize] {
+            let tree = Tree::new(&graph, root, &mut is_met);
+            tours.push(tour(&graph, &tree, lift));
+        }
+    }
+    let bounds = graph.places.iter().fold(Rect::EMPTY, |all, tip| all.with(tip.point));
+    let start = |trails: &Vec<Vec<Turned>>| {
+        trails.first().and_then(|trail| trail.first()).map(|&(k, back)| {
+            let first = &moves[k as usize];
+            if back { first.to() } else { first.from() }
+        })
+    };
+    tours.sort_by_cached_key(|trails| start(trails).map(|tip| hilbert(&bounds, tip.point)));
+    tours.into_iter().flatten().collect()
+}
+
+impl Graph {
+    fn new(moves: &[Move]) -> Self {
+        let mut numbers: HashMap<[u64; 2], u32> = HashMap::new();
+        let (mut at, mut places) = (Vec::<Vec<u32>>::new(), Vec::new());
+        let mut node = |tip: Tip| {
+            let bits = [tip.point.x, tip.point.y].map(|v| (v + 0.0).to_bits());
+            *numbers.entry(bits).or_insert_with(|| {
+                at.push(Vec::new());
+                places.push(tip);
+                at.len() as u32 - 1
+            })
+        };
+        let ends: Vec<[u32; 2]> = moves.iter().map(|m| [m.from(), m.to()].map(&mut node)).collect();
+        for (k, &[from, to]) in (0..).zip(&ends) {
+            at[from as usize].push(k);
+            if from != to {
+                at[to as usize].push(k);
+            }
+        }
+        Self { ends, lengths: moves.iter().map(Move::length).collect(), at, places }
+    }
+
+    fn other(&self, edge: u32, node: u32) -> u32 {
+        let [from, to] = self.ends[edge as usize];
+        if from == node { to } else { from }
+    }
+}
+
+/// A tree over all nodes of a component.
+struct Tree {
+    /// Parents before children, each with the place of its parent and the move from there.
+    nodes: Vec<(u32, Option<(u32, u32)>)>,
+}
+
+impl Tree {
+    fn new(graph: &Graph, root: u32, is_met: &mut [bool]) -> Self {
+        // Depth first, so that neighbours in the list are near each other.
+        let (mut nodes, mut open) = (Vec::new(), vec![(root, None)]);
+        while let Some((node, above)) = open.pop() {
+            if std::mem::replace(&mut is_met[node as usize], true) {
+                continue;
+            }
+            let place = nodes.len() as u32;
+            nodes.push((node, above));
+            for &edge in graph.at[node as usize].iter().rev() {
+                let to = graph.other(edge, node);
+                if !is_met[to as usize] {
+                    open.push((to, Some((place, edge))));
+                }
+            }
+        }
+        Self { nodes }
+    }
+}
+
+/// What is least over the nodes below: by whether the number of moves gone over again is odd, and by how many
+/// places (of two) are left over for free.
+type Costs = [[f64; 3]; 2];
+
+const NEVER: Costs = [[f64::INFINITY; 3]; 2];
+
+/// How a node is made even: by what of its children, and with which place left over, if one is.
+#[derive(Clone, Copy, Default)]
+struct Choice {
+    below: [u8; 2],
+    is_left: bool,
+}
+
+/// The moves to go over once more, and the nodes where trails begin or end.
+fn doubled(graph: &Graph, tree: &Tree, lift: f64) -> (Vec<u32>, Vec<u32>) {
+    let n = tree.nodes.len();
+    let children = {
+        let mut children = vec![Vec::new(); n];
+        for (k, (_, above)) in (0_u32..).zip(&tree.nodes) {
+            if let Some((place, _)) = above {
+                children[*place as usize].push(k);
+            }
+        }
+        children
+    };
+    let mut costs = vec![NEVER; n];
+    let mut choices = vec![[[Choice::default(); 3]; 2]; n];
+    // What of itself each child adds to the state of those before it and itself.
+    let mut shares = vec![[[[0_u8; 2]; 3]; 2]; n];
+    for place in (0..n).rev() {
+        let (node, above) = tree.nodes[place];
+        let mut sum = NEVER;
+        sum[0][0] = 0.0;
+        for &child in &children[place] {
+            let (before, mut next) = (sum, NEVER);
+            for (odd, free) in states() {
+                for (twice, used) in states().filter(|&(_, used)| used <= free) {
+                    let cost =
+                        before[odd ^ twice][free - used] + costs[child as usize][twice][used];
+                    if cost < next[odd][free] {
+                        next[odd][free] = cost;
+                        shares[child as usize][odd][free] = [twice as u8, used as u8];
+                    }
+                }
+            }
+            sum = next;
+        }
+        let loops =
+            graph.at[node as usize].iter().filter(|&&e| graph.other(e, node) == node).count();
+        let is_odd = (graph.at[node as usize].len() + loops) % 2;
+        let length = above.map_or(0.0, |(_, edge)| graph.lengths[edge as usize]);
+        for (twice, free) in states() {
+            let mut options = vec![([is_odd ^ twice, free], false, 0.0)];
+            options.push(([is_odd ^ twice ^ 1, free], true, 0.5 * lift));
+            if free > 0 {
+                options.push(([is_odd ^ twice ^ 1, free - 1], true, 0.0));
+            }
+            for (below, is_left, price) in options {
+                let cost = sum[below[0]][below[1]] + price + twice as f64 * length;
+                if cost < costs[place][twice][free] {
+                    costs[place][twice][free] = cost;
+                    let below = below.map(|v| v as u8);
+                    choices[place][twice][free] = Choice { below, is_left };
+                }
+            }
+        }
+    }
+    // Back from the root, over which nothing is doubled.
+    let free = usize::from(costs[0][0][2] < costs[0][0][0]) * 2;
+    let mut state = vec![[0_u8; 2]; n];
+    state[0] = [0, free as u8];
+    let (mut again, mut left) = (Vec::new(), Vec::new());
+    for place in 0..n {
+        let [twice, free] = state[place].map(usize::from);
+        let (node, above) = tree.nodes[place];
+        again.extend(above.filter(|_| twice == 1).map(|(_, edge)| edge));
+        let choice = choices[place][twice][free];
+        if choice.is_left {
+            left.push(node);
+        }
+        let [mut odd, mut free] = choice.below.map(usize::from);
+        for &child in children[place].iter().rev() {
+            let share = shares[child as usize][odd][free];
+            state[child as usize] = share;
+            odd ^= usize::from(share[0]);
+            free -= usize::from(share[1]);
+        }
+    }
+    (again, left)
+}
+
+fn states() -> impl Iterator<Item = (usize, usize)> {
+    (0..2).flat_map(|odd| (0..3).map(move |free| (odd, free)))
+}
+
+/// The trails of one component.
+fn tour(graph: &Graph, tree: &Tree, lift: f64) -> Vec<Vec<Turned>> {
+    let (again, left) = doubled(graph, tree, lift);
+    // Edges of the tour: moves, some twice, and lifts.
+    let nodes: HashMap<u32, u32> =
+        (0..).zip(&tree.nodes).map(|(k, &(node, _))| (node, k)).collect();
+    let mut edges: Vec<([u32; 2], Option<u32>)> = Vec::new();
+    for &(node, _) in &tree.nodes {
+        let first = graph.at[node as usize].iter().filter(|&&e| graph.ends[e as usize][0] == node);
+        edges.extend(first.map(|&e| (graph.ends[e as usize], Some(e))));
+    }
+    edges.extend(again.iter().map(|&e| (graph.ends[e as usize], Some(e))));
+    edges.extend(left.chunks_exact(2).map(|pair| ([pair[0], pair[1]], None)));
+    let mut at = vec![Vec::new(); tree.nodes.len()];
+    for (k, (ends, _)) in (0_u32..).zip(&edges) {
+        ends.iter().for_each(|node| at[nodes[node] as usize].push(k));
+    }
+    // Hierholzer: walk until stuck, and back up to where something is left.
+    let start = left.first().copied().unwrap_or_else(|| shallowest(graph, tree));
+    let mut is_used = vec![false; edges.len()];
+    let (mut stack, mut round) = (vec![(start, None)], Vec::new());
+    while let Some(&(node, arrival)) = stack.last() {
+        let list = &mut at[nodes[&node] as usize];
+        match list.pop() {
+            Some(edge) if is_used[edge as usize] => {}
+            Some(edge) => {
+                is_used[edge as usize] = true;
+                let ([from, to], number) = edges[edge as usize];
+                let next = if from == node { to } else { from };
+                stack.push((next, Some((number, from != node))));
+            }
+            None => {
+                stack.pop();
+                round.extend(arrival);
+            }
+        }
+    }
+    round.reverse();
+    // From behind a lift on, if there is one.
+    let lifted = round.iter().position(|step| step.0.is_none());
+    round.rotate_left(lifted.map_or(0, |k| k + 1));
+    let parts = round.split(|step| step.0.is_none());
+    let trail = |part: &[(Option<u32>, bool)]| {
+        part.iter().filter_map(|&(number, back)| Some((number?, back))).collect::<Vec<_>>()
+    };
+    parts.map(trail).filter(|trail| !trail.is_empty()).collect()
+}
+
+/// The node of a component that is nearest to the surface; of several the first.
+fn shallowest(graph: &Graph, tree: &Tree) -> u32 {
+    let z = |node: u32| graph.places[node as usize].z;
+    let mut best = tree.nodes[0].0;
+    for &(node, _) in &tree.nodes {
+        if z(node) > z(best) {
+            best = node;
+        }
+    }
+    best
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geom::Point;
+
+    fn line(from: (f64, f64), to: (f64, f64)) -> Move {
+        let tip = |(x, y)| Tip { point: Point::new(x, y), z: -1.0 };
+        Move::Line { from: tip(from), to: tip(to) }
+    }
+
+    /// Every move is taken, and each trail goes on from where the move before ends.
+    fn checked(moves: &[Move], lift: f64) -> (usize, f64) {
+        let trails = trails(moves, lift);
+        let mut times = vec![0; moves.len()];
+        let mut length = 0.0;
+        for trail in &trails {
+            let turned = |&(k, back): &Turned| {
+                let step = moves[k as usize];
+                if back { step.reversed() } else { step }
+            };
+            for pair in trail.windows(2) {
+                assert_eq!(turned(&pair[0]).to().point, turned(&pair[1]).from().point);
+            }
+            for &(k, _) in trail {
+                times[k as usize] += 1;
+                length += moves[k as usize].length();
+            }
+        }
+        assert!(times.iter().all(|&n| n == 1 || n == 2), "{times:?}");
+        (trails.len(), length)
+    }
+
+    #[test]
+    fn a_single_move_is_one_trail_however_dear_lifts_are() {
+        assert_eq!(checked(&[line((0., 0.), (1., 0.))], 1e9), (1, 1.0));
+    }
+
+    #[test]
+    fn short_spurs_are_gone_over_again_and_long_ones_are_not() {
+        // A spine of length 10 with a fork of two arms at either end.
+        let fork = |x: f64, arm: f64| [line((x, 0.), (x, arm)), line((x, -arm), (x, 0.))];
+        let moves = |arm| {
+            let mut moves = vec![line((0., 0.), (10., 0.))];
+            moves.extend(fork(0., arm));
+            moves.extend(fork(10., arm));
+            moves
+        };
+        // Two arms are gone over again, the others are where the trail begins and ends.
+        assert_eq!(checked(&moves(1.0), 4.0), (1, 16.0));
+        // Two lifts cost less than two arms of length 3.
+        assert_eq!(checked(&moves(3.0), 2.5), (3, 22.0));
+        assert_eq!(checked(&moves(1.0), 0.0), (3, 14.0));
+    }
+
+    #[test]
+    fn rings_and_grids_are_one_trail_if_all_is_even() {
+        let square = [(0., 0.), (1., 0.), (1., 1.), (0., 1.)];
+        let ring: Vec<Move> = (0..4).map(|k| line(square[k], square[(k + 1) % 4])).collect();
+        assert_eq!(checked(&ring, 0.0), (1, 4.0));
+        let mut grid = Vec::new();
+        for k in 0..4 {
+            for j in 0..3 {
+                let (a, b) = (f64::from(k), f64::from(j));
+                grid.extend([line((b, a), (b + 1., a)), line((a, b), (a, b + 1.))]);
+            }
+        }
+        // Eight places of degree three on the sides: four trails, or fewer and something twice.
+        assert_eq!(checked(&grid, 0.0), (4, 24.0));
+        let (n, length) = checked(&grid, 2.5);
+        assert!(n == 1 && (27.0..=28.0).contains(&length), "{length}");
+    }
+
+    #[test]
+    fn every_component_is_cut() {
+        let moves: Vec<Move> = (0..50)
+            .map(|k| line((f64::from(k), 0.), (f64::from(k), 1.)))
+            .chain([line((0.5, 7.0), (0.5, 8.0))])
+            .collect();
+        assert_eq!(checked(&moves, 1.0), (51, 51.0));
+    }
+}

@@ -1,0 +1,341 @@
+//! Thin walls: where a shape is between two widths, as lines that are as wide as the shape.
+//!
+//! # Contract
+//! Lines run along the axis where its width is at least the one and at most the other limit, which is decided
+//! exactly; they end at its junctions, and where it gets wider or narrower. Drawn with a round pen as wide as
+//! the shape they fill it there. What leads into a corner, or to where the shape gets too narrow, and is
+//! short, is left out: a pen that wide has filled it already. A thin part of which nothing else would be left
+//! is one point. O(n).
+//!
+//! Slicers call this the medial axis of a shape, or its gap fill.
+//!
+//! # Method
+//! Along a path the radius is convex: what is no wider than a limit is one piece of it, what is no narrower
+//! two at most. Pieces that meet make a graph; loose short ends of it are taken away once, and what then
+//! meets in twos is joined.
+
+use super::hierarchy::HierarchyError;
+use super::radii::{Limit, Radii};
+use crate::axis::{Curve, KeypointKind, MedialAxis};
+use crate::domain::Domain;
+use crate::geom::Point;
+
+/// Which walls are thin; lengths are in units of the input.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WallOptions {
+    /// The least width.
+    pub min: f64,
+    /// The greatest width.
+    pub max: f64,
+    /// Loose ends shorter than this are left out.
+    pub ends: f64,
+}
+
+impl WallOptions {
+    /// Walls between two widths, without loose ends shorter than the greater one.
+    #[must_use]
+    pub const fn between(min: f64, max: f64) -> Self {
+        Self { min, max, ends: max }
+    }
+}
+
+/// A thin wall.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Wall {
+    /// The curves that it consists of, each starting where the one before ends; a single one from a point to
+    /// itself for a wall that is one point.
+    pub curves: Vec<Curve>,
+}
+
+impl Wall {
+    /// Its length.
+    #[must_use]
+    pub fn length(&self) -> f64 {
+        self.curves.iter().map(Curve::length).sum()
+    }
+
+    /// Whether it ends where it starts.
+    #[must_use]
+    pub fn is_closed(&self) -> bool {
+        let ends = self.curves.first().map(Curve::from).zip(self.curves.last().map(Curve::to));
+        self.length() > 0.0 && ends.is_some_and(|(from, to)| from == to)
+    }
+
+    /// The least, the greatest and the mean width along it.
+    #[must_use]
+    pub fn widths(&self) -> [f64; 3] {
+        let least = self.curves.iter().map(Curve::radius_min).fold(f64::INFINITY, f64::min);
+        let greatest = self.curves.iter().map(Curve::radius_max).fold(0.0, f64::max);
+        let sum: f64 = self.curves.iter().map(|curve| curve.length() * curve.radius_mean()).sum();
+        let length = self.length();
+        let mean = if length > 0.0 { (sum / length).clamp(least, greatest) } else { greatest };
+        [least, greatest, mean].map(|radius| 2.0 * radius)
+    }
+
+    /// Its points and the width at each, no farther than a tolerance from it in space, with the radius as
+    /// height.
+    #[must_use]
+    pub fn polyline(&self, tolerance: f64) -> Vec<(Point, f64)> {
+        let mut points: Vec<(Point, f64)> = Vec::new();
+        for (k, curve) in self.curves.iter().enumerate() {
+            let drawn = curve.polyline_in_space(tolerance).into_iter();
+            points.extend(drawn.skip(usize::from(k > 0)).map(|(p, radius)| (p, 2.0 * radius)));
+        }
+        if self.length() == 0.0 {
+            points.truncate(1);
+        }
+        points
+    }
+}
+
+/// Why there are no walls.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum WallError {
+    /// Widths are not negative, and the least is no more than the greatest; so is the length of ends.
+    #[error(
+        "there is no wall from {min} to {max} wide without ends shorter than {ends}; give lengths from 0 on, the lesser width first"
+    )]
+    Range {
+        /// What was given as the least width.
+        min: f64,
+        /// What was given as the greatest width.
+        max: f64,
+        /// What was given as the length of ends.
+        ends: f64,
+    },
+    /// The axis is pruned, sampled or of another domain.
+    #[error(transparent)]
+    Axis(#[from] HierarchyError),
+}
+
+/// A piece of a path that is as wide as asked for, between two nodes.
+struct Piece {
+    curve: Curve,
+    nodes: [u32; 2],
+}
+
+/// How the axis goes on at a node of pieces.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Kind {
+    /// A keypoint.
+    Keypoint,
+    /// It gets narrower than asked for, or ends in a corner.
+    Narrow,
+    /// It gets wider.
+    Wide,
+}
+
+/// The thin walls of an axis, each from its lesser end by x, then y, all in the order of these.
+///
+/// ```
+/// use medial::domain::{Domain, Options};
+/// use medial::engine::path_tracing;
+/// use medial::geom::Point;
+/// use medial::ops::{WallOptions, thin_walls};
+///
+/// // A block of width 4, and a wall of width 1 that stands out from it by 5.
+/// let ring = [(0., 0.), (4., 0.), (4., 1.), (9., 1.), (9., 2.), (4., 2.), (4., 4.), (0., 4.)];
+/// let ring = ring.map(|(x, y)| Point::new(x, y));
+/// let domain = Domain::from_polygons(&[vec![ring.to_vec()]], &Options::default())?;
+/// let axis = path_tracing(&domain)?;
+/// let walls = thin_walls(&domain, &axis, &WallOptions::between(0.5, 1.0))?;
+/// assert_eq!(walls.len(), 1);
+/// let line = walls[0].polyline(0.01);
+/// assert_eq!((line[0], line[1]), ((Point::new(4.0, 1.5), 1.0), (Point::new(8.5, 1.5), 1.0)));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// If the widths are negative or in the wrong order; if the axis is not exact, or pruned, or not of this
+/// domain.
+pub fn thin_walls(
+    domain: &Domain,
+    axis: &MedialAxis,
+    options: &WallOptions,
+) -> Result<Vec<Wall>, WallError> {
+    let WallOptions { min, max, ends } = *options;
+    if !(0.0 <= min && min <= max && max.is_finite() && 0.0 <= ends && !ends.is_nan()) {
+        return Err(WallError::Range { min, max, ends });
+    }
+    let radii = Radii::new(domain, axis)?;
+    let mut band = Band::new(&radii, axis, options);
+    band.drop_ends(ends);
+    let mut walls = band.walls();
+    walls.sort_by(|one, other| {
+        let start = |wall: &Wall| wall.curves.first().map(Curve::from).unwrap_or_default();
+        start(one).lexicographic(start(other))
+    });
+    Ok(walls)
+}
+
+/// Pieces of an axis and how they meet.
+struct Band {
+    pieces: Vec<Piece>,
+    kinds: Vec<Kind>,
+    /// Pieces at each node; a piece from a node to itself is there twice.
+    at: Vec<Vec<u32>>,
+    /// What is not left out.
+    is_kept: Vec<bool>,
+    /// Nodes that stand for a part of which all else was left out.
+    points: Vec<(Point, f64)>,
+}
+
+/// Pieces one after another, and whether each runs backwards.
+type Chain = Vec<(u32, bool)>;
+
+impl Band {
+    fn new(radii: &Radii<'_>, axis: &MedialAxis, options: &WallOptions) -> Self {
+        // Halves of doubles are doubles, or so small that it makes no difference.
+        let thin = Limit::more_than(radii, 0.5 * options.max);
+        let thick = Limit::at_least(radii, 0.5 * options.min);
+        let kind = |k: u32| match axis.keypoints().at(k).kind {
+            KeypointKind::End => Kind::Narrow,
+            _ => Kind::Keypoint,
+        };
+        let mut kinds: Vec<Kind> = (0..axis.keypoints().len() as u32).map(kind).collect();
+        let mut pieces = Vec::new();
+        for (number, path) in (0..).zip(axis.paths()) {
+            let Some([first, last]) = thin.within(number) else { continue };
+            let curve = axis.curve(&path);
+            let parts = match thick.within(number) {
+                None => [Some([first, last]), None],
+                Some([low, high]) => {
+                    let before = thick.is_farther(path.from) && first < low;
+                    let after = thick.is_farther(path.to) && high < last;
+                    [before.then_some([first, low]), after.then_some([high, last])]
+                }
+            };
+            for [u, v] in parts.into_iter().flatten() {
+                let mut end = |at: f64, bound: f64, limit: f64, keypoint: u32| {
+                    if at == bound && !thin.is_farther(keypoint) && thick.is_farther(keypoint) {
+                        return keypoint;
+                    }
+                    kinds.push(if at == limit { Kind::Wide } else { Kind::Narrow });
+                    kinds.len() as u32 - 1
+                };
+                // The limit of the greater width, if that is where it ends.
+                let from = end(u, 0.0, first, path.from);
+                let to = end(v, 1.0, last, path.to);
+                pieces.push(Piece { curve: curve.piece(u, v), nodes: [from, to] });
+            }
+        }
+        let mut at = vec![Vec::new(); kinds.len()];
+        for (k, piece) in (0_u32..).zip(&pieces) {
+            piece.nodes.iter().for_each(|&node| at[node as usize].push(k));
+        }
+        let is_kept = vec![true; pieces.len()];
+        Self { pieces, kinds, at, is_kept, points: Vec::new() }
+    }
+
+    fn kept_at(&self, node: u32) -> impl Iterator<Item = u32> + '_ {
+        self.at[node as usize].iter().copied().filter(|&k| self.is_kept[k as usize])
+    }
+
+    /// The pieces from a node on, up to the next one at which not two meet.
+    fn chain(&self, start: u32, first: u32) -> (Chain, u32) {
+        let (mut chain, mut node, mut next) = (Chain::new(), start, first);
+        loop {
+            let nodes = self.pieces[next as usize].nodes;
+            let back = nodes[0] != node;
+            chain.push((next, back));
+            node = nodes[usize::from(!back)];
+            let mut here = self.kept_at(node);
+            let others = [here.next(), here.next(), here.next()];
+            match others {
+                [Some(one), Some(other), None] if node != start && one != other => {
+                    next = if one == next { other } else { one };
+                }
+                _ => return (chain, node),
+            }
+        }
+    }
+
+    fn length(&self, chain: &Chain) -> f64 {
+        chain.iter().map(|&(k, _)| self.pieces[k as usize].curve.length()).sum()
+    }
+
+    /// Leaves out short chains with a loose end that is narrow; of a part of which nothing would be left, and
+    /// that does not go on anywhere wider, one point stays.
+    fn drop_ends(&mut self, least: f64) {
+        let mut dropped = Vec::new();
+        for start in 0..self.at.len() as u32 {
+            let [first] = self.at[start as usize][..] else { continue };
+            if self.kinds[start as usize] == Kind::Narrow {
+                let (chain, end) = self.chain(start, first);
+                if self.length(&chain) < least {
+                    dropped.push((chain, end));
+                }
+            }
+        }
+        for (chain, _) in &dropped {
+            // From both ends, perhaps.
+            chain.iter().for_each(|&(k, _)| self.is_kept[k as usize] = false);
+        }
+        let mut is_point = vec![false; self.at.len()];
+        for (chain, end) in dropped {
+            // A junction all of whose chains went, or both ends of one.
+            if self.kept_at(end).next().is_some() || self.kinds[end as usize] == Kind::Wide {
+                continue;
+            }
+            if !std::mem::replace(&mut is_point[end as usize], true) {
+                let start = self.nodes_of(&chain[0])[0];
+                if !std::mem::replace(&mut is_point[start as usize], true) {
+                    self.points.extend(self.widest(&chain));
+                }
+            }
+        }
+    }
+
+    /// The nodes from and to which a piece of a chain leads.
+    fn nodes_of(&self, &(k, back): &(u32, bool)) -> [u32; 2] {
+        let [from, to] = self.pieces[k as usize].nodes;
+        if back { [to, from] } else { [from, to] }
+    }
+
+    /// The widest of the points between the pieces of a chain and at its ends.
+    fn widest(&self, chain: &Chain) -> Option<(Point, f64)> {
+        let curves = chain.iter().map(|&(k, _)| self.pieces[k as usize].curve);
+        let ends = curves.flat_map(|c| [(c.from(), c.radius_from()), (c.to(), c.radius_to())]);
+        ends.reduce(|best, next| if next.1 > best.1 { next } else { best })
+    }
+
+    fn walls(&self) -> Vec<Wall> {
+        let mut is_taken = vec![false; self.pieces.len()];
+        let mut walls: Vec<Wall> = Vec::new();
+        let mut take = |chain: Chain, walls: &mut Vec<Wall>| {
+            if std::mem::replace(&mut is_taken[chain[0].0 as usize], true) {
+                return;
+            }
+            let turned = |&(k, back): &(u32, bool)| {
+                is_taken[k as usize] = true;
+                let curve = self.pieces[k as usize].curve;
+                if back { curve.reversed() } else { curve }
+            };
+            let mut curves: Vec<Curve> = chain.iter().map(turned).collect();
+            let ends = (curves[0].from(), curves[curves.len() - 1].to());
+            if ends.1.lexicographic(ends.0).is_lt() {
+                curves = curves.iter().rev().map(Curve::reversed).collect();
+            }
+            walls.push(Wall { curves });
+        };
+        let is_joint = |node: u32| self.kept_at(node).count() == 2;
+        for node in (0..self.at.len() as u32).filter(|&node| !is_joint(node)) {
+            for first in self.kept_at(node) {
+                take(self.chain(node, first).0, &mut walls);
+            }
+        }
+        // What is left are rings.
+        for (k, piece) in (0_u32..).zip(&self.pieces) {
+            if self.is_kept[k as usize] && is_joint(piece.nodes[0]) {
+                take(self.chain(piece.nodes[0], k).0, &mut walls);
+            }
+        }
+        for &(point, radius) in &self.points {
+            let site = crate::axis::Site::vertex(point);
+            let end = (point, radius);
+            walls.push(Wall { curves: vec![Curve::new(&site, &site, end, end)] });
+        }
+        walls
+    }
+}
