@@ -39,6 +39,8 @@ fn run() -> Result<Status, Failure> {
         Command::Centerline(args) => commands::centerline::run(&args),
         Command::Offset(args) => commands::offset::run(&args),
         Command::Clearance(args) => commands::clearance::run(&args),
+        Command::Carve(args) => commands::carve::run(&args),
+        Command::Walls(args) => commands::walls::run(&args),
         Command::Voronoi(args) => commands::voronoi::run(&args),
         Command::Locate(args) => commands::locate::run(&args),
         Command::Check(args) => commands::check::run(&args),

@@ -28,6 +28,8 @@ pub enum Format {
     Rings,
     /// The compressed axis.
     Maxis,
+    /// A program for a machine tool.
+    GCode,
 }
 
 const NAMES: &[(Format, &str, &[&str])] = &[
@@ -41,6 +43,7 @@ const NAMES: &[(Format, &str, &[&str])] = &[
     (Format::Png, "png", &["png"]),
     (Format::Rings, "rings", &["rings"]),
     (Format::Maxis, "maxis", &["maxis"]),
+    (Format::GCode, "gcode", &["gcode", "nc", "ngc", "tap"]),
 ];
 
 /// A word or a file extension that names no format.

@@ -35,6 +35,7 @@ mod samples;
 
 pub mod axis_document;
 pub mod csv;
+pub mod gcode;
 pub mod geojson;
 pub mod limb_document;
 pub mod location_document;

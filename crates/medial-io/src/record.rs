@@ -32,8 +32,12 @@ pub enum Value {
 pub enum Shape {
     /// A point.
     Point(Point),
+    /// A point with a third coordinate.
+    PointInSpace(Point, f64),
     /// A line through these points.
     Line(Vec<Point>),
+    /// A line through these points, each with a third coordinate.
+    LineInSpace(Vec<(Point, f64)>),
     /// Polygons, each of rings that are not closed, the outer one first.
     Polygons(Vec<Vec<Vec<Point>>>),
 }
@@ -177,9 +181,17 @@ fn geojson(
                 out.extend_from_slice(b"{\"type\":\"Point\",\"coordinates\":");
                 position(out, *p, None);
             }
+            Shape::PointInSpace(p, z) => {
+                out.extend_from_slice(b"{\"type\":\"Point\",\"coordinates\":");
+                position(out, *p, Some(*z));
+            }
             Shape::Line(points) => {
                 out.extend_from_slice(b"{\"type\":\"LineString\",\"coordinates\":");
                 list(out, points, |out, &p| position(out, p, None));
+            }
+            Shape::LineInSpace(points) => {
+                out.extend_from_slice(b"{\"type\":\"LineString\",\"coordinates\":");
+                list(out, points, |out, &(p, z)| position(out, p, Some(z)));
             }
             Shape::Polygons(polygons) => match &polygons[..] {
                 [polygon] => {

@@ -119,7 +119,8 @@ fn passes_go_on_where_moves_end_and_take_every_move() {
         let depth = (k % 2 == 0).then(|| 0.5 * axis.radius_max());
         let clearing = depth.map(|depth| Clearing { radius: 0.1 * depth, step: 0.1 * depth });
         let lift = [None, Some(0.0), Some(1e9)][k % 3];
-        let options = CarveOptions { depth, clearing, lift, angle: 90.0 };
+        let leave = (k % 5 == 0).then(|| 0.05 * axis.radius_max());
+        let options = CarveOptions { depth, clearing, leave, lift, angle: 90.0 };
         let carving = carve(domain, &axis, &options).unwrap();
         let mut times = vec![0; carving.moves.len()];
         let mut last = Role::Valley;
@@ -186,6 +187,62 @@ fn the_bit_reaches_the_boundary_and_never_beyond() {
             }
         }
     }
+}
+
+#[test]
+fn what_may_be_left_is_left_and_no_more() {
+    // A disk of radius 10 as a polygon: without its small corners a single point is left to drill.
+    let n = 40;
+    let at = |k: u32| {
+        Point::new(0.0, 0.0) + {
+            let (sin, cos) = (f64::from(k) / f64::from(n) * std::f64::consts::TAU).sin_cos();
+            Point::new(cos, sin) * 10.0
+        }
+    };
+    let ring: Vec<Point> = (0..n).map(at).collect();
+    let domain = Domain::from_polygons(&[vec![ring]], &domain::Options::default()).unwrap();
+    let options = CarveOptions { leave: Some(0.1), ..CarveOptions::with_angle(90.0) };
+    let drilled = carved(&domain, &options);
+    assert_eq!((drilled.moves.len(), drilled.passes.len()), (1, 1));
+    let radius = -drilled.moves[0].1.from().z;
+    assert!(close(drilled.volume(), std::f64::consts::PI * radius.powi(3) / 3.0));
+    // On any shape no point that was cut before is farther from what is cut now.
+    for (k, domain) in domains(36, 120).iter().enumerate() {
+        let axis = path_tracing(domain).unwrap();
+        let leave = 0.1 * axis.radius_max();
+        let depth = (k % 2 == 0).then(|| 0.6 * axis.radius_max());
+        let all = CarveOptions { depth, ..CarveOptions::with_angle(90.0) };
+        let [all, less] = [all, CarveOptions { leave: Some(leave), ..all }]
+            .map(|options| carve(domain, &axis, &options).unwrap());
+        assert!(less.volume() <= all.volume() * (1.0 + 1e-12));
+        let length =
+            |carving: &Carving| -> f64 { carving.moves.iter().map(|(_, cut)| cut.length()).sum() };
+        assert!(length(&less) <= length(&all) * (1.0 + 1e-12));
+        let tips = |carving: &Carving| -> Vec<(Point, f64)> {
+            let of = |(_, cut): &(Role, Move)| {
+                (0..=60).map(|t| cut.at(f64::from(t) / 60.0)).collect::<Vec<_>>()
+            };
+            carving.moves.iter().flat_map(of).map(|tip| (tip.point, -tip.z)).collect()
+        };
+        let kept = tips(&less);
+        for &(p, r) in tips(&all).iter().step_by(7) {
+            // The rim of what was cut there is within reach of a rim that is cut now.
+            let reach = |&(c, s): &(Point, f64)| (p - c).norm() + r - s;
+            let least = kept.iter().map(reach).fold(f64::INFINITY, f64::min);
+            assert!(least <= leave + 0.02 * axis.radius_max(), "{least} {leave}");
+        }
+    }
+}
+
+#[test]
+fn a_cone_is_cut_around_the_ends_of_what_was_pruned() {
+    // A bar of 10 by 2 without its corners: a groove between two halves of a cone.
+    let bar = shapes::wkt("POLYGON ((0 0, 10 0, 10 2, 0 2, 0 0))");
+    let leave = Some(2f64.sqrt() - 1.0 + 1e-12);
+    let options = CarveOptions { leave, ..CarveOptions::with_angle(90.0) };
+    let carving = carved(&bar, &options);
+    assert_eq!(carving.moves.len(), 1);
+    assert!(close(carving.volume(), 8.0 + std::f64::consts::PI / 3.0), "{}", carving.volume());
 }
 
 #[test]

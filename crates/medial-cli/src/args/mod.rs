@@ -1,8 +1,12 @@
+mod carve;
 mod clearance;
 mod offset;
+mod walls;
 
+pub use carve::{CarveArgs, Units};
 pub use clearance::ClearanceArgs;
 pub use offset::OffsetArgs;
+pub use walls::WallsArgs;
 
 use crate::failure::{Failure, Status};
 use clap::error::ErrorKind;
@@ -49,6 +53,10 @@ pub enum Command {
     Offset(OffsetArgs),
     /// Find where polygons are narrow, or near one another, and their largest inscribed disks
     Clearance(ClearanceArgs),
+    /// Compute the tool path of a V-bit that carves polygons
+    Carve(CarveArgs),
+    /// Find thin walls, as lines with the width of the shape
+    Walls(WallsArgs),
     /// Compute the Voronoi diagram of the boundary elements of polygons
     Voronoi(VoronoiArgs),
     /// Find what of the boundary of polygons is nearest to a point

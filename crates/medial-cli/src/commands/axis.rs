@@ -202,6 +202,9 @@ fn output_format(args: &AxisArgs) -> Result<Format, Failure> {
     if format == Format::Maxis {
         return usage("maxis is written by `medial compress`; see its --help".to_owned());
     }
+    if format == Format::GCode {
+        return usage("gcode is written by `medial carve`; see its --help".to_owned());
+    }
     if !args.draw.is_empty() && !picture {
         return usage(format!("--draw is for svg and png, not for {format}"));
     }

@@ -1,5 +1,6 @@
 pub mod axis;
 pub mod branches;
+pub mod carve;
 pub mod centerline;
 pub mod check;
 pub mod clearance;
@@ -13,3 +14,4 @@ mod records;
 mod sink;
 pub mod smooth;
 pub mod voronoi;
+pub mod walls;

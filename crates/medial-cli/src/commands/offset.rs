@@ -1,5 +1,5 @@
 use super::features::Run;
-use super::records::Plan;
+use super::records::{Found, Plan};
 use super::sink::{boundary, title};
 use crate::args::OffsetArgs;
 use crate::failure::{Failure, Status};
@@ -8,10 +8,9 @@ use crate::timings::{Stages, timed};
 use medial::domain::Domain;
 use medial::engine::{self, exterior, interior};
 use medial::ops::{Outline, offset_margin, offsets};
-use medial_io::record::{self, Record, Shape};
+use medial_io::record::{Record, Shape};
 use medial_io::svg::{Options, Parallels, write_offsets};
 use medial_io::{Format, domain_tolerance, offset_document};
-use std::time::Duration;
 
 const COLUMNS: &[&str] = &["distance", "area", "length", "n_polygons", "n_holes"];
 
@@ -46,51 +45,29 @@ pub fn run(args: &OffsetArgs) -> Result<Status, Failure> {
         return Err(Failure::Usage(why));
     }
     let input = run.open(&args.input)?;
-    let layer = timed(&mut run.stages.read, || input.layer())?;
-    let mut sink = plan.sink(format, layer.crs.clone())?;
-    let mut pictures = Vec::new();
-    let mut write = Duration::ZERO;
-    let (at_once, threads) = run.threads(&layer);
-    let options = engine::Options { threads, ..engine::Options::default() };
-    let status = run.each(
+    let options = Options { title: title("Offsets", &args.input), ..Options::default() };
+    plan.run_and_draw(
+        run,
         &input,
-        layer,
-        at_once,
-        |feature, domain, stages, bytes| {
-            let outlines = parallels(args, domain, stages, &options)?;
+        |feature, domain, stages, options| {
+            let outlines = parallels(args, domain, stages, options)?;
             if format == Format::Svg {
-                return Ok(Some(Parallels { boundary: boundary(domain), outlines }));
+                return Ok(Found::Part(Parallels { boundary: boundary(domain), outlines }));
             }
-            timed(&mut stages.write, || {
+            Ok(timed(&mut stages.write, || {
                 if format == Format::Json {
-                    for (distance, outline) in &outlines {
-                        let line = offset_document::write(feature, args.engine, *distance, outline);
-                        bytes.extend_from_slice(line.as_bytes());
-                    }
-                    return;
+                    let line = |(distance, outline): &(f64, Outline)| {
+                        offset_document::write(feature, args.engine, *distance, outline)
+                    };
+                    return Found::Text(outlines.iter().map(line).collect());
                 }
                 let tolerance = args.tolerance.unwrap_or_else(|| domain_tolerance(domain));
-                let records: Vec<Record> =
-                    outlines.iter().map(|(d, outline)| record(*d, outline, tolerance)).collect();
-                record::write(bytes, format, feature, args.engine, COLUMNS, &records);
-            });
-            Ok(None)
+                let of = |(d, outline): &(f64, Outline)| record(*d, outline, tolerance);
+                Found::Records(outlines.iter().map(of).collect())
+            }))
         },
-        |picture| pictures.extend(picture),
-        |bytes| timed(&mut write, || sink.write(bytes)),
-    )?;
-    if status != Status::NoResult {
-        timed(&mut write, || {
-            let options = Options { title: title("Offsets", &args.input), ..Options::default() };
-            let is_picture = format == Format::Svg;
-            let picture =
-                if is_picture { write_offsets(&pictures, &options) } else { String::new() };
-            sink.finish(picture.as_bytes())
-        })?;
-    }
-    run.stages.write += write;
-    run.finish()?;
-    Ok(status)
+        |pictures| write_offsets(pictures, &options),
+    )
 }
 
 /// The parallel curves of a shape in the order of the distances, without those at which nothing is left.

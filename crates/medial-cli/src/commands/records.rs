@@ -58,7 +58,7 @@ impl Plan<'_> {
     /// Calls `work` for each valid feature of an input and writes the records that it gives.
     pub fn run(
         &self,
-        mut run: Run<'_>,
+        run: Run<'_>,
         input: &Polygons,
         work: impl Fn(
             &Feature,
@@ -68,9 +68,29 @@ impl Plan<'_> {
         ) -> Result<Vec<Record>, Entry>
         + Sync,
     ) -> Result<Status, Failure> {
+        let work = |feature: &Feature,
+                    domain: &Domain,
+                    stages: &mut Stages,
+                    options: &engine::Options<'_>| {
+            work(feature, domain, stages, options).map(Found::<()>::Records)
+        };
+        self.run_and_draw(run, input, work, |_| String::new())
+    }
+
+    /// The same where formats are pictures, or whatever is made of all that was found at once: `draw` makes
+    /// it.
+    pub fn run_and_draw<P: Send>(
+        &self,
+        mut run: Run<'_>,
+        input: &Polygons,
+        work: impl Fn(&Feature, &Domain, &mut Stages, &engine::Options<'_>) -> Result<Found<P>, Entry>
+        + Sync,
+        draw: impl FnOnce(&[P]) -> String,
+    ) -> Result<Status, Failure> {
         let format = self.format()?;
         let layer = timed(&mut run.stages.read, || input.layer())?;
         let mut sink = self.sink(format, layer.crs.clone())?;
+        let mut parts = Vec::new();
         let mut write = Duration::ZERO;
         let (at_once, threads) = run.threads(&layer);
         let options = engine::Options { threads, ..engine::Options::default() };
@@ -79,20 +99,40 @@ impl Plan<'_> {
             layer,
             at_once,
             |feature, domain, stages, bytes| {
-                let records = work(feature, domain, stages, &options)?;
+                let records = match work(feature, domain, stages, &options)? {
+                    Found::Records(records) => records,
+                    Found::Text(text) => {
+                        bytes.extend_from_slice(text.as_bytes());
+                        return Ok(None);
+                    }
+                    Found::Part(part) => return Ok(Some(part)),
+                };
                 timed(&mut stages.write, || {
                     record::write(bytes, format, feature, self.engine, self.columns, &records);
                 });
-                Ok(())
+                Ok(None)
             },
-            |()| {},
+            |part| parts.extend(part),
             |bytes| timed(&mut write, || sink.write(bytes)),
         )?;
         if status != Status::NoResult {
-            timed(&mut write, || sink.finish(&[]))?;
+            timed(&mut write, || {
+                let drawn = if parts.is_empty() { String::new() } else { draw(&parts) };
+                sink.finish(drawn.as_bytes())
+            })?;
         }
         run.stages.write += write;
         run.finish()?;
         Ok(status)
     }
+}
+
+/// What was found of a feature, as its format has it.
+pub enum Found<P> {
+    /// Records.
+    Records(Vec<Record>),
+    /// Text of the format itself.
+    Text(String),
+    /// What becomes a part of one whole.
+    Part(P),
 }

@@ -133,7 +133,7 @@ impl<'a> Data<'a> {
     /// On to the end of a curve that starts where the pen is.
     pub fn curve_to(&mut self, curve: &Curve) {
         match curve.control() {
-            Some(control) => self.verb('Q', &[control, curve.to()]),
+            Some(control) => self.quadratic_to(control, curve.to()),
             None => self.line_to(curve.to()),
         }
     }
@@ -153,22 +153,61 @@ impl<'a> Data<'a> {
             if k == 0 {
                 self.move_to(from);
             }
-            match *stroke {
-                Stroke::Line { to, .. } => self.line_to(to),
-                Stroke::Arc { to, radius, sense, angle, .. } => {
-                    let radius = number(self.frame.length(radius));
-                    let large = u8::from(angle > std::f64::consts::PI);
-                    // Pictures have y down.
-                    let sweep = u8::from(sense == Sense::Clockwise);
-                    let p = self.frame.map(to);
-                    let [x, y] = [p.x, p.y].map(number);
-                    let _ = write!(self.text, "A{radius} {radius} 0 {large} {sweep} {x} {y}");
-                }
-            }
+            self.stroke(stroke);
         }
         if !strokes.is_empty() {
             self.text.push('Z');
         }
+    }
+
+    /// On to the end of a stroke that starts where the pen is.
+    pub fn stroke(&mut self, stroke: &Stroke) {
+        match *stroke {
+            Stroke::Line { to, .. } => self.line_to(to),
+            Stroke::Arc { to, radius, sense, angle, .. } => {
+                let is_large = angle > std::f64::consts::PI;
+                self.arc_to(to, radius, is_large, sense == Sense::Clockwise);
+            }
+        }
+    }
+
+    fn arc_to(&mut self, to: Point, radius: f64, is_large: bool, is_clockwise: bool) {
+        let radius = number(self.frame.length(radius));
+        // Pictures have y down.
+        let (large, sweep) = (u8::from(is_large), u8::from(is_clockwise));
+        let p = self.frame.map(to);
+        let [x, y] = [p.x, p.y].map(number);
+        let _ = write!(self.text, "A{radius} {radius} 0 {large} {sweep} {x} {y}");
+    }
+
+    /// A whole disk, counterclockwise.
+    pub fn disk(&mut self, centre: Point, radius: f64) {
+        let [right, left] = [radius, -radius].map(|x| centre + Point::new(x, 0.0));
+        self.move_to(right);
+        self.arc_to(left, radius, false, false);
+        self.arc_to(right, radius, false, false);
+        self.text.push('Z');
+    }
+
+    /// What lies between the outer tangents of two disks, each a centre and a diameter; nothing if one
+    /// holds the other.
+    pub fn hull(&mut self, (p, first): (Point, f64), (q, second): (Point, f64)) {
+        let way = q - p;
+        let distance = way.norm();
+        let lean = 0.5 * (first - second) / distance;
+        if lean.is_nan() || lean.abs() >= 1.0 {
+            return;
+        }
+        let along = way * (1.0 / distance);
+        let across = along.perp() * ((1.0 - lean) * (1.0 + lean)).sqrt();
+        let [left, right] = [along * lean + across, along * lean - across];
+        let corners = [(p, right, first), (q, right, second), (q, left, second), (p, left, first)];
+        self.ring(corners.map(|(at, normal, width)| at + normal * (0.5 * width)));
+    }
+
+    /// On along a quadratic Bézier curve.
+    pub fn quadratic_to(&mut self, control: Point, to: Point) {
+        self.verb('Q', &[control, to]);
     }
 
     /// A dot, as large as the stroke with round caps.

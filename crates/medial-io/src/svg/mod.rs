@@ -6,6 +6,7 @@
 //! renderer draws the same.
 
 mod canvas;
+mod carving;
 mod centerline;
 mod frame;
 mod layers;
@@ -14,10 +15,13 @@ mod lettering;
 mod offset;
 mod palette;
 mod voronoi;
+mod walls;
 
+pub use carving::{ToolPath, write_tool_paths};
 pub use centerline::{MainLines, write_lines};
 pub use offset::{Parallels, write_offsets};
 pub use voronoi::{Diagram, write_diagrams};
+pub use walls::{ThinWalls, write_walls};
 
 use crate::text::escaped;
 use canvas::Canvas;

@@ -10,6 +10,8 @@ const LINE: u32 = 2;
 const MULTI_POINT: u32 = 4;
 const MULTI_LINE: u32 = 5;
 const COLLECTION: u32 = 7;
+/// What is added to the type of a geometry with heights.
+const IN_SPACE: u32 = 1000;
 
 /// The axis as one MULTILINESTRING, a line per path, little-endian; ISO types with heights.
 ///
@@ -17,7 +19,7 @@ const COLLECTION: u32 = 7;
 #[must_use]
 pub fn write(axis: &MedialAxis, drawing: Drawing) -> Vec<u8> {
     let mut out = Vec::new();
-    let z = if drawing.radius_as_z { 1000 } else { 0 };
+    let z = if drawing.radius_as_z { IN_SPACE } else { 0 };
     let tolerance = drawing.tolerance(axis);
     if drawing.keypoints {
         head(&mut out, COLLECTION + z);
@@ -51,10 +53,19 @@ pub(crate) fn shape(out: &mut Vec<u8>, shape: &Shape) {
             head(out, POINT);
             point(out, *p, None);
         }
+        Shape::PointInSpace(p, z) => {
+            head(out, POINT + IN_SPACE);
+            point(out, *p, Some(*z));
+        }
         Shape::Line(points) => {
             head(out, LINE);
             count(out, points.len());
             points.iter().for_each(|&p| point(out, p, None));
+        }
+        Shape::LineInSpace(points) => {
+            head(out, LINE + IN_SPACE);
+            count(out, points.len());
+            points.iter().for_each(|&(p, z)| point(out, p, Some(z)));
         }
         Shape::Polygons(polygons) => out.extend(write_polygons(polygons)),
     }

@@ -51,10 +51,15 @@ pub(crate) fn shape(out: &mut String, shape: &Shape) {
             out.push_str("POINT ");
             group(out, [p], |out, &p| point(out, p, None));
         }
+        Shape::PointInSpace(p, z) => {
+            out.push_str("POINT Z ");
+            group(out, [p], |out, &p| point(out, p, Some(*z)));
+        }
         Shape::Line(points) => {
             out.push_str("LINESTRING ");
             group(out, points, |out, &p| point(out, p, None));
         }
+        Shape::LineInSpace(points) => drawn_line(out, points, true),
         Shape::Polygons(polygons) => match &polygons[..] {
             [polygon] => {
                 out.push_str("POLYGON ");

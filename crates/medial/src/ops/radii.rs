@@ -246,24 +246,29 @@ impl<'r, 'a> Limit<'r, 'a> {
         Some((u, curve.point_at(u)))
     }
 
-    /// What of a path is not farther; none if all is. Its ends are keypoints, or the points of
-    /// [`Limit::falls`] with the distance as radius.
-    pub fn rest(&self, number: u32) -> Option<Curve> {
+    /// What of a part of a path, between two parameters, is not farther; none if all is. Its ends are those
+    /// of the part, or the points of [`Limit::falls`] with the distance as radius.
+    pub fn rest(&self, number: u32, part: [f64; 2]) -> Option<Curve> {
         if self.is_whole(number) {
             return None;
         }
         let path = self.radii.axis.paths().at(number);
         let curve = self.radii.axis.curve(&path);
-        let from = self.falls(number, &path);
-        let to = self.falls(number, &path.reversed());
-        let first = from.map_or(0.0, |cut| cut.0);
-        let last = to.map_or(1.0, |cut| 1.0 - cut.0).max(first);
-        let at = |cut: Option<(f64, Point)>, end: (Point, f64)| {
+        let from = self.falls(number, &path).filter(|cut| cut.0 >= part[0]);
+        let back = self.falls(number, &path.reversed()).map(|(u, point)| (1.0 - u, point));
+        let to = back.filter(|cut| cut.0 <= part[1]);
+        let [first, last] = [from.map_or(part[0], |cut| cut.0), to.map_or(part[1], |cut| cut.0)];
+        // From the other end it may be farther all along the part.
+        if first > last {
+            return None;
+        }
+        let piece = curve.piece(first, last);
+        let end = |cut: Option<(f64, Point)>, end: (Point, f64)| {
             cut.map_or(end, |(_, point)| (point, self.distance))
         };
-        let start = at(from, (curve.from(), curve.radius_from()));
-        let end = at(to, (curve.to(), curve.radius_to()));
-        Some(curve.piece(first, last).with_ends(start, end))
+        let start = end(from, (piece.from(), piece.radius_from()));
+        let end = end(to, (piece.to(), piece.radius_to()));
+        Some(piece.with_ends(start, end))
     }
 
     /// Between which parameters a path is not farther; none if all is.

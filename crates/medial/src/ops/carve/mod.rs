@@ -8,22 +8,26 @@
 //! to a tool of its own. Moves are exact curves; they meet bit for bit.
 //!
 //! # Method
-//! 1. Each path of the axis is a move: a line between two edges, a quadratic over a parabola, a hyperbola
+//! 1. Of an axis that may leave something the limbs below that excess are pruned (`hierarchy.rs`).
+//! 2. Each path of the axis is a move: a line between two edges, a quadratic over a parabola, a hyperbola
 //!    between two corners; below the limit of depth it ends at the wall (`moves.rs`).
-//! 2. Moves and walls that meet make a graph, and trails through it the passes of the bit (`order.rs`).
+//! 3. Moves and walls that meet make a graph, and trails through it the passes of the bit (`order.rs`).
 
 mod moves;
 mod order;
 
 pub use moves::{Move, Tip};
 
-use super::hierarchy::HierarchyError;
+use super::hierarchy::{Hierarchy, HierarchyError};
+use super::measure::Measure;
 use super::offset::{OffsetError, offsets};
 use super::outline::Outline;
 use super::radii::{Limit, Radii};
-use crate::axis::{MedialAxis, Side};
+use super::rest::{Origin, Pruned};
+use crate::axis::{Curve, MedialAxis, Side};
 use crate::domain::Domain;
-use order::trails;
+use crate::geom::Point;
+use order::{places, trails};
 
 /// How a shape is carved; lengths are in units of the input.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -34,6 +38,9 @@ pub struct CarveOptions {
     pub depth: Option<f64>,
     /// The tool that clears the floor.
     pub clearing: Option<Clearing>,
+    /// How much may be left: what reaches no farther than this out of all that is cut, as the corners of a
+    /// curve that was drawn with segments. Nothing by default.
+    pub leave: Option<f64>,
     /// The length of a way over what is cut already that is gone rather than to lift the bit; by default
     /// four times the greatest radius: twice down to a corner and back.
     pub lift: Option<f64>,
@@ -43,7 +50,7 @@ impl CarveOptions {
     /// All the way down with a bit of some angle in degrees.
     #[must_use]
     pub const fn with_angle(angle: f64) -> Self {
-        Self { angle, depth: None, clearing: None, lift: None }
+        Self { angle, depth: None, clearing: None, leave: None, lift: None }
     }
 }
 
@@ -182,6 +189,7 @@ pub fn carve(
     let lift = options.lift.unwrap_or(4.0 * axis.radius_max());
     let clearing = options.clearing;
     let lengths = [
+        ("length that may be left", options.leave.unwrap_or(1.0), false),
         ("depth", options.depth.unwrap_or(1.0), false),
         ("radius of the clearing tool", clearing.map_or(0.0, |tool| tool.radius), true),
         ("step", clearing.map_or(1.0, |tool| tool.step), false),
@@ -195,7 +203,7 @@ pub fn carve(
     if clearing.is_some() && options.depth.is_none() {
         return Err(CarveError::NoFloor);
     }
-    let radii = Radii::new(domain, axis)?;
+    let (valleys, points) = valleys(domain, axis, options.leave)?;
     let mut carving = Carving {
         moves: Vec::new(),
         passes: Vec::new(),
@@ -203,23 +211,30 @@ pub fn carve(
         slope,
         depth: options.depth,
     };
-    let Some(depth) = options.depth else {
-        let moves = axis.paths().iter().map(|path| Move::along(&axis.curve(&path), |r| slope * r));
-        carving.moves.extend(moves.map(|cut| (Role::Valley, cut)));
+    let limit = options.depth.map(|depth| (depth, depth / slope));
+    let at = |r: f64| match limit {
+        // Where it meets the wall it is as deep to the last bit.
+        Some((depth, radius)) if r == radius => depth,
+        _ => slope * r,
+    };
+    let mut cut = |curve: Curve| carving.moves.push((Role::Valley, Move::along(&curve, at)));
+    let Some((depth, radius)) = limit else {
+        for Origin { path, part: [from, to] } in valleys {
+            cut(axis.curve(&axis.paths().at(path)).piece(from, to));
+        }
+        carving.drill(&points, f64::INFINITY);
         carving.order(lift);
         return Ok(carving);
     };
-    let radius = depth / slope;
-    let limit = Limit::more_than(&radii, radius);
-    for number in 0..axis.paths().len() as u32 {
-        let Some(curve) = limit.rest(number) else { continue };
+    let radii = Radii::new(domain, axis)?;
+    let bound = Limit::more_than(&radii, radius);
+    for Origin { path, part } in valleys {
         // A path may only touch the limit.
-        if curve.from() != curve.to() {
-            // Where it meets the wall it is as deep to the last bit.
-            let at = |r: f64| if r == radius { depth } else { slope * r };
-            carving.moves.push((Role::Valley, Move::along(&curve, at)));
+        if let Some(curve) = bound.rest(path, part).filter(|curve| curve.from() != curve.to()) {
+            cut(curve);
         }
     }
+    carving.drill(&points, radius);
     let mut distances = vec![radius];
     if let Some(Clearing { radius: tool, step }) = clearing {
         let first = radius + if tool > 0.0 { tool } else { step };
@@ -246,6 +261,24 @@ pub fn carve(
         carving.passes.push((first..carving.moves.len() as u32).map(|k| (k, false)).collect());
     }
     Ok(carving)
+}
+
+/// The parts of paths that are cut, and the points, with their radii, of which nothing else is.
+type Valleys = (Vec<Origin>, Vec<(Point, f64)>);
+
+fn valleys(
+    domain: &Domain,
+    axis: &MedialAxis,
+    leave: Option<f64>,
+) -> Result<Valleys, HierarchyError> {
+    let Some(most) = leave else {
+        let whole = |path| Origin { path, part: [0.0, 1.0] };
+        return Ok(((0..axis.paths().len() as u32).map(whole).collect(), Vec::new()));
+    };
+    let Pruned { axis: left, origins, .. } =
+        Hierarchy::new(domain, axis)?.pruned(Measure::Excess, most);
+    let alone = left.keypoints().iter().zip(left.degrees()).filter(|(_, degree)| *degree == 0);
+    Ok((origins, alone.map(|(keypoint, _)| (keypoint.position, keypoint.radius)).collect()))
 }
 
 /// The cotangent of half an angle in degrees; 1 at 90.
@@ -279,20 +312,50 @@ impl Carving {
         pass.first().map(|&(number, _)| self.moves[number as usize].0)
     }
 
-    /// What is cut away, the floor cleared: the volume under the least of the distance from the boundary and
-    /// the limit, times the slope. It is added up from the moves alone, in cubes of the unit of the input.
+    /// Goes straight down at points, to the depth of their radii, but for those deeper than the limit.
+    fn drill(&mut self, points: &[(Point, f64)], most: f64) {
+        for &(point, radius) in points.iter().filter(|(_, radius)| *radius <= most) {
+            let tip = Tip { point, z: -self.slope * radius };
+            self.moves.push((Role::Valley, Move::Line { from: tip, to: tip }));
+        }
+    }
+
+    /// What is cut away, the floor cleared, in cubes of the unit of the input. It is added up from the moves
+    /// alone. If nothing is left it is the volume under the least of the distance from the boundary and the
+    /// limit, times the slope.
     #[must_use]
     pub fn volume(&self) -> f64 {
         let depth = self.depth.unwrap_or(0.0);
         let radius = depth / self.slope;
-        let cut = |(role, cut): &(Role, Move)| match (role, cut) {
-            (Role::Valley, cut) => cut.volume(self.slope),
-            // A prism with a triangle for its end, or the same turned around a corner of the boundary.
-            (Role::Wall, Move::Arc { angle, .. }) => depth * radius * radius * angle / 3.0,
-            (Role::Wall, cut) => 0.5 * depth * radius * cut.length(),
-            (Role::Floor, _) => 0.0,
+        let (ends, tips) = places(self.moves.iter().map(|(_, cut)| cut));
+        // What of a half turn around each place is not between the rims of moves.
+        let mut open = vec![std::f64::consts::PI; tips.len()];
+        let mut sum = 0.0;
+        for ((role, cut), ends) in self.moves.iter().zip(ends) {
+            match (role, cut) {
+                (Role::Valley, cut) => {
+                    let (volume, angles) = cut.swept(self.slope);
+                    sum += self.slope * volume;
+                    ends.iter().zip(angles).for_each(|(&end, angle)| open[end as usize] -= angle);
+                }
+                // A prism with a triangle for its end, or the same turned around a corner.
+                (Role::Wall, Move::Arc { angle, .. }) => {
+                    sum += depth * radius * radius * angle / 3.0
+                }
+                (Role::Wall, cut) => sum += 0.5 * depth * radius * cut.length(),
+                (Role::Floor, _) => {}
+            }
+            // The wall takes care of its own places, and the floor's tool cuts no slope.
+            if *role != Role::Valley {
+                ends.iter().for_each(|&end| open[end as usize] = f64::NEG_INFINITY);
+            }
+        }
+        // The cone of the bit's point, where no move takes it on.
+        let cone = |(tip, open): (&Tip, f64)| {
+            let radius = -tip.z / self.slope;
+            if open > 0.0 { self.slope * open * radius.powi(3) / 3.0 } else { 0.0 }
         };
-        self.moves.iter().map(cut).sum::<f64>() + depth * self.floor.area()
+        sum + tips.iter().zip(open).map(cone).sum::<f64>() + depth * self.floor.area()
     }
 
     /// The length of all passes in space.

@@ -242,29 +242,35 @@ impl Move {
         }
     }
 
-    /// What a bit cuts away on both sides of its way, up to where the material is not touched any more; so
-    /// much deeper than wide to either side.
+    /// What a bit cuts away on both sides of its way, for a depth as large as the radius; and half of the
+    /// angle ahead at its start, and behind at its end, between the points where it touches its rim there.
     ///
     /// At `s` along the way, seen from above, the bit touches the surface on a circle of radius `r`, and its
     /// rim in two points, at an angle `φ` from the way ahead, where `cos φ = -r'`. The lines from the tip to
-    /// those sweep over the surface; over each the depth falls evenly to nothing.
-    pub(super) fn volume(&self, slope: f64) -> f64 {
+    /// those sweep over the surface; over each the depth falls evenly to nothing. Both sides together:
+    /// `∫ (sin φ r² - φ' r³/3) ds`.
+    pub(super) fn swept(&self, slope: f64) -> (f64, [f64; 2]) {
         let radius = |tip: Tip| -tip.z / slope;
-        let angle = |t: f64| {
+        let [from, to] = [self.from(), self.to()];
+        if from == to {
+            return (0.0, [0.0; 2]);
+        }
+        // How fast the radius grows: minus the cosine of the angle.
+        let growth = |t: f64| {
             let (along, rise) = self.velocity(t);
-            (rise / slope / along.norm()).clamp(-1.0, 1.0).acos()
+            (-rise / slope / along.norm()).clamp(-1.0, 1.0)
         };
+        let phi = |t: f64| (-growth(t)).acos();
         let swept = integral(|t| {
-            let (along, rise) = self.velocity(t);
-            let speed = along.norm();
-            // How fast the radius grows: minus the cosine of the angle.
-            let growth = (-rise / slope / speed).clamp(-1.0, 1.0);
-            let (sin, phi) = (((1.0 - growth) * (1.0 + growth)).sqrt(), (-growth).acos());
+            let growth = growth(t);
+            let sin = ((1.0 - growth) * (1.0 + growth)).sqrt();
             let r = radius(self.at(t));
-            (sin + phi * growth) * r * r * speed
+            (sin + (-growth).acos() * growth) * r * r * self.velocity(t).0.norm()
         });
-        let turned = |t: f64| angle(t) * radius(self.at(t)).powi(3) / 3.0;
-        slope * (swept - (turned(1.0) - turned(0.0)))
+        let [start, end] = [phi(0.0), phi(1.0)];
+        let third = |tip: Tip| radius(tip).powi(3) / 3.0;
+        let volume = swept - (end * third(to) - start * third(from));
+        (volume, [start, std::f64::consts::PI - end])
     }
 }
 
@@ -421,7 +427,10 @@ mod tests {
     fn a_groove_of_even_width_has_the_volume_of_a_prism() {
         let groove = Move::Line { from: tip(0.0, 0.0, -2.0), to: tip(3.0, 0.0, -2.0) };
         // As wide as deep to either side.
-        assert!((groove.volume(1.0) - 12.0).abs() < 1e-14);
-        assert!((groove.volume(2.0) - 6.0).abs() < 1e-14);
+        let (volume, angles) = groove.swept(1.0);
+        assert!((volume - 12.0).abs() < 1e-14);
+        assert_eq!(angles, [std::f64::consts::FRAC_PI_2; 2]);
+        // Half as wide, and half as deep for its width.
+        assert!((groove.swept(2.0).0 - 3.0).abs() < 1e-14);
     }
 }

@@ -47,19 +47,25 @@ pub(super) fn trails(moves: &[Move], lift: f64) -> Vec<Vec<Turned>> {
     tours.into_iter().flatten().collect()
 }
 
+/// The numbers of the places where moves start and end, and the places.
+pub(super) fn places<'m>(moves: impl Iterator<Item = &'m Move>) -> (Vec<[u32; 2]>, Vec<Tip>) {
+    let mut numbers: HashMap<[u64; 2], u32> = HashMap::new();
+    let mut places = Vec::new();
+    let mut number = |tip: Tip| {
+        let bits = [tip.point.x, tip.point.y].map(|v| (v + 0.0).to_bits());
+        *numbers.entry(bits).or_insert_with(|| {
+            places.push(tip);
+            places.len() as u32 - 1
+        })
+    };
+    let ends = moves.map(|cut| [cut.from(), cut.to()].map(&mut number)).collect();
+    (ends, places)
+}
+
 impl Graph {
     fn new(moves: &[Move]) -> Self {
-        let mut numbers: HashMap<[u64; 2], u32> = HashMap::new();
-        let (mut at, mut places) = (Vec::<Vec<u32>>::new(), Vec::new());
-        let mut node = |tip: Tip| {
-            let bits = [tip.point.x, tip.point.y].map(|v| (v + 0.0).to_bits());
-            *numbers.entry(bits).or_insert_with(|| {
-                at.push(Vec::new());
-                places.push(tip);
-                at.len() as u32 - 1
-            })
-        };
-        let ends: Vec<[u32; 2]> = moves.iter().map(|m| [m.from(), m.to()].map(&mut node)).collect();
+        let (ends, places) = places(moves.iter());
+        let mut at = vec![Vec::new(); places.len()];
         for (k, &[from, to]) in (0..).zip(&ends) {
             at[from as usize].push(k);
             if from != to {
