@@ -39,6 +39,13 @@ fn spacings_and_largest_disks_are_told_on_request() {
     assert_eq!(largest[0]["geometry"]["coordinates"], serde_json::json!([6.5, 1.5]));
     let wkt = medial_with(&["clearance", "-", "--largest", "--to", "wkt"], two);
     assert_eq!(wkt.text(), "POINT (6.5 1.5)\n");
+    // All of the spine of a rectangle is as wide.
+    let spine = features(&["clearance", "-", "--largest"], "POLYGON ((0 0, 6 0, 6 2, 0 2, 0 0))");
+    let told = |name: &str| spine[0]["properties"][name].as_f64();
+    let known = [2.0, 4.0, 3.0, 1.0].map(Some);
+    assert_eq!((spine.len(), ["width", "length", "x", "y"].map(told)), (1, known));
+    assert_eq!(spine[0]["geometry"]["type"], "LineString");
+    assert_eq!(spine[0]["geometry"]["coordinates"].as_array().unwrap().len(), 2);
     let both = medial_with(&["clearance", "-", "--largest", "--min", "2"], two);
     assert_eq!(both.status, Some(2));
 }

@@ -30,7 +30,8 @@ pub struct ClearanceArgs {
     /// Write necks narrower than this only, in units of the input
     #[arg(long, value_name = "W", value_parser = positive, allow_negative_numbers = true)]
     pub min: Option<f64>,
-    /// Write the largest inscribed disks instead: points, with twice the radius as width
+    /// Write where the largest inscribed disks lie instead, with twice the radius as width: points, or
+    /// lines along passages between parallel edges
     #[arg(long, conflicts_with_all = ["min", "side", "frame"])]
     pub largest: bool,
     /// Who computes the axis: path_tracing, divide_and_conquer

@@ -9,7 +9,7 @@ use crate::timings::timed;
 use medial::axis::MedialAxis;
 use medial::domain::Domain;
 use medial::geom::Point;
-use medial::ops::{Neck, largest_disks, necks};
+use medial::ops::{Neck, Plateau, largest_disks, necks};
 use medial_io::record::{Record, Shape, Value};
 
 const COLUMNS: &[&str] = &[
@@ -58,8 +58,8 @@ pub fn run(args: &ClearanceArgs) -> Result<Status, Failure> {
 fn found(args: &ClearanceArgs, domain: &Domain, axis: &MedialAxis) -> Result<Vec<Record>, Entry> {
     let wrong = |error| Entry::internal(&error);
     if args.largest {
-        let disks = largest_disks(domain, axis).map_err(wrong)?;
-        return Ok(disks.into_iter().map(|keypoint| disk_record(axis, keypoint)).collect());
+        let plateaus = largest_disks(domain, axis).map_err(wrong)?;
+        return Ok(plateaus.iter().map(|plateau| plateau_record(axis, plateau)).collect());
     }
     let necks = necks(domain, axis, args.min).map_err(wrong)?;
     Ok(necks.iter().map(|neck| neck_record(axis, neck)).collect())
@@ -75,11 +75,16 @@ fn neck_record(axis: &MedialAxis, neck: &Neck) -> Record {
     Record { values, shape: Shape::Line(neck.footpoints.to_vec()) }
 }
 
-fn disk_record(axis: &MedialAxis, keypoint: u32) -> Record {
-    let disk = axis.keypoints().at(keypoint);
-    let mut values = values(axis, "largest", 2.0 * disk.radius, 0.0, disk.position);
+fn plateau_record(axis: &MedialAxis, plateau: &Plateau) -> Record {
+    let Plateau { radius, length, middle, .. } = *plateau;
+    let mut values = values(axis, "largest", 2.0 * radius, length, middle);
     values.resize(COLUMNS.len(), Value::None);
-    Record { values, shape: Shape::Point(disk.position) }
+    let position = |k: u32| axis.keypoints().at(k).position;
+    let shape = match &plateau.keypoints_along(axis)[..] {
+        [_] => Shape::Point(middle),
+        along => Shape::Line(along.iter().copied().map(position).collect()),
+    };
+    Record { values, shape }
 }
 
 fn values(axis: &MedialAxis, kind: &str, width: f64, length: f64, at: Point) -> Vec<Value> {

@@ -30,7 +30,7 @@ pub use centerline::{
     Centerline, CenterlineError, CenterlineOptions, Extension, LineOptions, Route, Widths,
     centerlines, polylines,
 };
-pub use clearance::{Neck, largest_disks, necks};
+pub use clearance::{Neck, Plateau, largest_disks, necks};
 pub use compress::{
     CompressError, Compressed, Corners, DiskGraph, GridDisk, RebuildError, Run, compress,
 };
