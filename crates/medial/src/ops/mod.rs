@@ -15,6 +15,7 @@ mod limbs;
 mod measure;
 mod offset;
 mod outline;
+mod profile;
 mod prominence;
 mod radii;
 mod reconstruct;
@@ -42,6 +43,7 @@ pub use limbs::{Limb, LimbPair, limb_pairs, limbs};
 pub use measure::Measure;
 pub use offset::{OffsetError, offset_margin, offsets};
 pub use outline::{Contour, Outline, OutlineError, OutlinePiece, OutlinePolygon, Sense};
+pub use profile::{Station, narrowest, profile};
 pub use reconstruct::{Disk, ReconstructError, disks, polygons_of, signed_area, tangent_polygons};
 #[cfg(feature = "union")]
 pub use reconstruct::{union_of_disks, without_crossings};
