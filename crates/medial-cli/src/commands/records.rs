@@ -14,6 +14,7 @@ use medial::engine;
 use medial_io::record::{self, Record};
 use medial_io::{Feature, Format};
 use std::io::IsTerminal as _;
+use std::path::Path;
 use std::time::Duration;
 
 /// How records are made and written.
@@ -35,16 +36,25 @@ pub const LINES: &[Format] =
 pub const POLYGONS: &[Format] = &record::FORMATS;
 
 impl Plan<'_> {
+    /// The file of the output, if it is not standard output.
+    fn file(&self) -> Option<&Path> {
+        self.target.output.as_deref().filter(|path| path.as_os_str() != "-")
+    }
+
+    /// The format that is asked for.
+    pub fn asked(&self) -> Result<Format, Failure> {
+        format_of(self.target.to, self.file())
+    }
+
     /// The format of the output, if the records have it.
     pub fn format(&self) -> Result<Format, Failure> {
-        let file = self.target.output.as_deref().filter(|path| path.as_os_str() != "-");
-        let format = format_of(self.target.to, file)?;
+        let format = self.asked()?;
         if !self.formats.contains(&format) {
             let names = self.formats.iter().map(|format| format.name()).collect::<Vec<_>>();
             let (thing, names) = (self.thing, names.join(", "));
             return Err(Failure::Usage(format!("{thing} are written as {names}, not as {format}")));
         }
-        if format == Format::Wkb && file.is_none() && std::io::stdout().is_terminal() {
+        if format == Format::Wkb && self.file().is_none() && std::io::stdout().is_terminal() {
             return Err(Failure::Usage("a terminal shows no wkb; name a file with -o".to_owned()));
         }
         Ok(format)
@@ -58,7 +68,7 @@ impl Plan<'_> {
     /// Calls `work` for each valid feature of an input and writes the records that it gives.
     pub fn run(
         &self,
-        mut run: Run<'_>,
+        run: Run<'_>,
         input: &Polygons,
         work: impl Fn(
             &Feature,
@@ -68,9 +78,22 @@ impl Plan<'_> {
         ) -> Result<Vec<Record>, Entry>
         + Sync,
     ) -> Result<Status, Failure> {
+        self.run_or_draw(run, input, work, |records| records, |_| String::new())
+    }
+
+    /// The same for results that are written as records or drawn together in one picture.
+    pub fn run_or_draw<T: Send>(
+        &self,
+        mut run: Run<'_>,
+        input: &Polygons,
+        work: impl Fn(&Feature, &Domain, &mut Stages, &engine::Options<'_>) -> Result<T, Entry> + Sync,
+        records: impl Fn(T) -> Vec<Record> + Sync,
+        draw: impl FnOnce(&[T]) -> String,
+    ) -> Result<Status, Failure> {
         let format = self.format()?;
         let layer = timed(&mut run.stages.read, || input.layer())?;
         let mut sink = self.sink(format, layer.crs.clone())?;
+        let mut drawn = Vec::new();
         let mut write = Duration::ZERO;
         let (at_once, threads) = run.threads(&layer);
         let options = engine::Options { threads, ..engine::Options::default() };
@@ -79,17 +102,24 @@ impl Plan<'_> {
             layer,
             at_once,
             |feature, domain, stages, bytes| {
-                let records = work(feature, domain, stages, &options)?;
+                let result = work(feature, domain, stages, &options)?;
+                if format == Format::Svg {
+                    return Ok(Some(result));
+                }
                 timed(&mut stages.write, || {
+                    let records = records(result);
                     record::write(bytes, format, feature, self.engine, self.columns, &records);
                 });
-                Ok(())
+                Ok(None)
             },
-            |()| {},
+            |result| drawn.extend(result),
             |bytes| timed(&mut write, || sink.write(bytes)),
         )?;
         if status != Status::NoResult {
-            timed(&mut write, || sink.finish(&[]))?;
+            timed(&mut write, || {
+                let picture = if format == Format::Svg { draw(&drawn) } else { String::new() };
+                sink.finish(picture.as_bytes())
+            })?;
         }
         run.stages.write += write;
         run.finish()?;

@@ -13,10 +13,12 @@ mod legend;
 mod lettering;
 mod offset;
 mod palette;
+mod profile;
 mod voronoi;
 
 pub use centerline::{MainLines, write_lines};
 pub use offset::{Parallels, write_offsets};
+pub use profile::{Profile, write_profiles};
 pub use voronoi::{Diagram, write_diagrams};
 
 use crate::text::escaped;
