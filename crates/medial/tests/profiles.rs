@@ -61,6 +61,20 @@ fn a_closed_line_comes_back_to_its_width() {
     assert_eq!(stations[narrowest(&stations).unwrap()].width, 3.0);
 }
 
+#[test]
+fn a_closed_line_may_begin_where_it_is_narrowest() {
+    let ring = |widths: [f64; 5]| -> Vec<Station> {
+        let corners = [(0., 0.), (2., 0.), (2., 2.), (0., 2.), (0., 0.)];
+        let all = (0..).map(|k| 2.0 * f64::from(k)).zip(corners.into_iter().zip(widths));
+        all.map(|(along, ((x, y), width))| Station { along, point: Point::new(x, y), width })
+            .collect()
+    };
+    assert_eq!(narrowest(&ring([1.0, 2.0, 3.0, 2.0, 1.0])), Some(0));
+    assert_eq!(narrowest(&ring([3.0, 2.0, 1.0, 2.0, 3.0])), Some(2));
+    // Both ends in one corner.
+    assert_eq!(narrowest(&ring([0.0, 2.0, 1.0, 2.0, 0.0])), Some(2));
+}
+
 /// The width of the chord over a length, and the distance of a point from the polyline there.
 fn chord(pair: &[Station], along: f64, p: Point) -> (f64, f64) {
     let [a, b] = [pair[0], pair[1]];

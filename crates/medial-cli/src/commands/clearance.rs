@@ -103,8 +103,8 @@ fn profiles(args: &ClearanceArgs, mut run: Run<'_>) -> Result<Status, Failure> {
         },
         |profile| profile.stations.iter().map(station_record).collect(),
         |profiles| {
-            let options =
-                Options { title: title("Width profile", &args.input), ..Options::default() };
+            let what = if profiles.len() > 1 { "Width profiles" } else { "Width profile" };
+            let options = Options { title: title(what, &args.input), ..Options::default() };
             write_profiles(profiles, &options)
         },
     )

@@ -19,6 +19,7 @@ mod lee_9_11;
 mod lesson;
 mod letter;
 mod offsets;
+mod profile;
 mod pruned;
 mod shape;
 mod sheet;
@@ -61,7 +62,7 @@ const LESSONS: [Lesson; 12] = [
 ];
 
 /// Pictures besides, each in a file of its name.
-const PICTURES: [(&str, Lesson); 15] = [
+const PICTURES: [(&str, Lesson); 16] = [
     ("lee-1-2", lee_1_2::LESSON),
     ("voronoi", voronoi::LESSON),
     ("both-sides", both_sides::LESSON),
@@ -77,6 +78,7 @@ const PICTURES: [(&str, Lesson); 15] = [
     ("smooth", smooth::LESSON),
     ("compress", compress::LESSON),
     ("offsets", offsets::LESSON),
+    ("profile", profile::LESSON),
 ];
 
 const HEAD: &str = "\

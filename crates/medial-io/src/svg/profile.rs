@@ -50,7 +50,7 @@ pub fn write_profiles(profiles: &[Profile], options: &Options) -> String {
     let widest = stations().map(|station| station.width).fold(0.0, f64::max);
     let axes = [Axis::new(longest, EXTENT.x, TICKS[0]), Axis::new(widest, EXTENT.y, TICKS[1])];
     grid(&mut canvas, &axes);
-    let colors = Colors { last: profiles.iter().map(|profile| profile.feature).max().unwrap_or(0) };
+    let colors = Colors::new(profiles);
     lines(&mut canvas, profiles, &axes, &colors);
     mark(&mut canvas, profiles, &axes);
     legend::title(&mut canvas, options);
@@ -138,7 +138,7 @@ fn grid(canvas: &mut Canvas, axes: &[Axis; 2]) {
     }
     let below = frame.map(sides[0] * 0.5) + Point::new(0.0, ROOM.y);
     canvas.text(below, SIZE, Anchor::Middle, INK, "station");
-    let above = frame.map(sides[1]) + Point::new(-8.0, -14.0);
+    let above = frame.map(sides[1]) + Point::new(-8.0, -10.0);
     canvas.text(above, SIZE, Anchor::End, INK, "width");
     canvas.close();
 }
@@ -189,7 +189,7 @@ fn mark(canvas: &mut Canvas, profiles: &[Profile], axes: &[Axis; 2]) {
     // Within the plot also where the place is near an end.
     let half = 0.5 * canvas.text_width(&label, SIZE);
     let middle = Point::new(at.x.clamp(half, EXTENT.x - half), EXTENT.y);
-    let above = canvas.frame.map(middle) - Point::new(0.0, 8.0);
+    let above = canvas.frame.map(middle) - Point::new(0.0, 10.0);
     canvas.open("value", "");
     canvas.text(above, SIZE, Anchor::Middle, MARK, &label);
     canvas.close();
@@ -215,12 +215,18 @@ fn key(canvas: &mut Canvas, profiles: &[Profile], colors: &Colors) {
     canvas.close();
 }
 
-/// The colours of features, from the first to the last.
+/// The colours of features.
 struct Colors {
+    /// The number with the last colour: an even one, so that the middle of a bar is a number too.
     last: usize,
 }
 
 impl Colors {
+    fn new(profiles: &[Profile]) -> Self {
+        let last = profiles.iter().map(|profile| profile.feature).max().unwrap_or(0);
+        Self { last: last + last % 2 }
+    }
+
     fn of(&self, feature: usize) -> String {
         color(feature * (STEPS - 1) / self.last.max(1))
     }
@@ -272,7 +278,8 @@ mod tests {
         assert!(picture.contains(">1.5 at 2, feature 0<"));
         let many: Vec<Profile> = (0..30).map(|feature| profile(feature, &widths)).collect();
         let picture = write_profiles(&many, &Options::default());
-        assert!(group(&picture, "legend").contains(">29<"));
+        let legend = group(&picture, "legend");
+        assert!(legend.contains(">15<") && legend.contains(">30<"));
         assert_eq!(group(&picture, "profiles").matches("<path").count(), 30);
     }
 

@@ -88,7 +88,8 @@ fn monotone(curve: &Curve) -> [Option<Curve>; 2] {
 }
 
 /// The number of the narrowest of the stations on both sides of which there are wider ones, the first of
-/// several; `None` where the width does not fall and grow again, as in a rectangle.
+/// several; `None` where the width does not fall and grow again, as in a rectangle. On a line that ends where
+/// it starts both sides are the rest of it.
 ///
 /// A line may end in a corner, where the width is 0, or where the shape is about to end; that is not meant.
 ///
@@ -104,17 +105,21 @@ fn monotone(curve: &Curve) -> [Option<Curve>; 2] {
 /// ```
 #[must_use]
 pub fn narrowest(stations: &[Station]) -> Option<usize> {
-    let widest = |most: &mut f64, station: &Station| {
+    let [first, .., last] = stations else { return None };
+    // Two ends of the axis may share a corner.
+    let is_closed = first.point == last.point && first.width > 0.0;
+    let widest = stations.iter().map(|station| station.width).fold(0.0, f64::max);
+    let beyond = if is_closed { widest } else { 0.0 };
+    let passed = |most: &mut f64, station: &Station| {
         let before = *most;
         *most = most.max(station.width);
         Some(before)
     };
-    let before: Vec<f64> = stations.iter().scan(f64::NEG_INFINITY, widest).collect();
-    let after: Vec<f64> = stations.iter().rev().scan(f64::NEG_INFINITY, widest).collect();
-    let sides = before.iter().zip(after.iter().rev());
-    let inside = stations.iter().zip(sides).enumerate();
-    let narrow = inside.filter(|(_, (station, (before, after)))| {
-        station.width < **before && station.width < **after
-    });
-    narrow.min_by(|(_, (a, _)), (_, (b, _))| a.width.total_cmp(&b.width)).map(|(k, _)| k)
+    let before = stations.iter().scan(beyond, passed);
+    let after: Vec<f64> = stations.iter().rev().scan(beyond, passed).collect();
+    let inside = stations.iter().zip(before).zip(after.iter().rev()).enumerate();
+    inside
+        .filter(|(_, ((station, before), after))| station.width < before.min(**after))
+        .min_by(|(_, ((one, _), _)), (_, ((other, _), _))| one.width.total_cmp(&other.width))
+        .map(|(number, _)| number)
 }
