@@ -270,3 +270,38 @@ fn the_largest_disk_is_that_of_a_search() {
         }
     }
 }
+
+#[test]
+fn random_plateaus_are_chains_of_largest_disks() {
+    let mut random = Random(12);
+    let (mut ties, mut passages) = (0, 0);
+    for _ in 0..12_000 {
+        let polygons = random::shape(&mut random, Family::Tangle, Ground::Grid(6));
+        let Ok(domain) = shapes::of(&polygons) else { continue };
+        let axis = path_tracing(&domain).unwrap();
+        let found = largest_disks(&domain, &axis).unwrap();
+        let mut keypoints: Vec<u32> = found.iter().flat_map(|p| p.keypoints.clone()).collect();
+        keypoints.sort_unstable();
+        assert!(keypoints.windows(2).all(|pair| pair[0] < pair[1]), "{found:?}");
+        for plateau in &found {
+            let along = plateau.keypoints_along(&axis);
+            assert_eq!(along.len(), plateau.paths.len() + 1);
+            for (pair, &number) in along.windows(2).zip(&plateau.paths) {
+                let path = axis.paths().at(number);
+                assert!(pair == [path.from, path.to] || pair == [path.to, path.from]);
+            }
+            let mut sorted = along.clone();
+            sorted.sort_unstable();
+            assert_eq!(sorted, plateau.keypoints);
+            // It is straight.
+            let [from, to] =
+                [along[0], along[along.len() - 1]].map(|k| axis.keypoints().at(k).position);
+            assert!(((to - from).norm() - plateau.length).abs() < 1e-12);
+            assert!((plateau.middle - (from + to) * 0.5).norm() < 1e-12);
+            assert!((distance(&domain, plateau.middle) - plateau.radius).abs() < 1e-12);
+            passages += usize::from(plateau.length > 0.0);
+        }
+        ties += usize::from(found.len() > 1);
+    }
+    assert!(ties > 10 && passages > 100, "{ties} {passages}");
+}

@@ -10,8 +10,8 @@ is a line between the two elements, which are named; the narrowest come first. B
 may be as long as a passage, and is drawn in its middle.
 Two elements that one tiny edge joins are near without a neck; polygons may have edges shorter than --min.
 
---profile writes the width along the main line of each feature, the one of medial centerline: points (stations)
-so near each other that the width between them is linear within the tolerance.
+--profile writes the width along the main line of each feature, the one that medial centerline gives by
+default: points so near each other that the width between them is linear within the tolerance.
 
 Formats: geojson, geojsonl, csv, wkt, wkb; with --profile also svg, a plot.
 

@@ -238,7 +238,7 @@ mod tests {
 
     fn profile(feature: usize, widths: &[(f64, f64)]) -> Profile {
         let station =
-            |&(along, width): &(f64, f64)| Station { along, width, point: Point::new(0.0, 0.0) };
+            |&(along, width): &(f64, f64)| Station { along, width, point: Point::new(along, 0.0) };
         Profile { feature, stations: widths.iter().map(station).collect() }
     }
 

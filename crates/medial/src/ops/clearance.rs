@@ -4,8 +4,8 @@
 //! A neck is a place where the radius is least: smaller than everywhere near on the axis. Inside it is a width of
 //! the polygons, outside a spacing between them, or between two parts of one. Between parallel edges it may
 //! be as long as a passage. Which places are necks, whether one is narrower than a limit, and which disks
-//! are the largest, also of two and of a whole passage, is decided exactly; only positions and widths are rounded. Convex corners, where the
-//! radius falls to zero, are no necks.
+//! are the largest, with all ties, is decided exactly; only positions and widths are rounded. Convex corners,
+//! where the radius falls to zero, are no necks.
 //!
 //! Two elements may be near without a neck between them: where one tiny edge joins them, the radius falls
 //! all the way into its corners [Lee82]. So a polygon may have a short edge and no neck there.
