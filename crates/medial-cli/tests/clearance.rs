@@ -39,6 +39,59 @@ fn spacings_and_largest_disks_are_told_on_request() {
     assert_eq!(largest[0]["geometry"]["coordinates"], serde_json::json!([6.5, 1.5]));
     let wkt = medial_with(&["clearance", "-", "--largest", "--to", "wkt"], two);
     assert_eq!(wkt.text(), "POINT (6.5 1.5)\n");
+    // All of the spine of a rectangle is as wide.
+    let spine = features(&["clearance", "-", "--largest"], "POLYGON ((0 0, 6 0, 6 2, 0 2, 0 0))");
+    let told = |name: &str| spine[0]["properties"][name].as_f64();
+    let known = [2.0, 4.0, 3.0, 1.0].map(Some);
+    assert_eq!((spine.len(), ["width", "length", "x", "y"].map(told)), (1, known));
+    assert_eq!(spine[0]["geometry"]["type"], "LineString");
+    assert_eq!(spine[0]["geometry"]["coordinates"].as_array().unwrap().len(), 2);
     let both = medial_with(&["clearance", "-", "--largest", "--min", "2"], two);
     assert_eq!(both.status, Some(2));
+}
+
+#[test]
+fn a_profile_tells_the_width_along_the_main_line() {
+    let stations = features(&["clearance", "-", "--profile"], DUMBBELL);
+    let told = |name: &str| -> Vec<f64> {
+        let told = |station: &Value| station["properties"][name].as_f64().unwrap();
+        stations.iter().map(told).collect()
+    };
+    let (along, widths) = (told("station"), told("width"));
+    assert!(along[0] == 0.0 && along.is_sorted(), "{along:?}");
+    let neck = widths.iter().position(|&width| width == 2.0).unwrap();
+    assert_eq!((told("x")[neck], told("y")[neck]), (5.0, 2.0));
+    assert_eq!(stations[neck]["geometry"]["coordinates"], serde_json::json!([5.0, 2.0]));
+    // The line is that of another command.
+    let line = &features(&["centerline", "-"], DUMBBELL)[0]["properties"];
+    assert!((line["length"].as_f64().unwrap() - along[along.len() - 1]).abs() < 1e-12);
+    assert_eq!(line["width_min"].as_f64(), widths.iter().copied().reduce(f64::min));
+    let count = |tolerance: &str| {
+        let words = ["clearance", "-", "--profile", "--tolerance", tolerance, "--to", "csv"];
+        let run = medial_with(&words, DUMBBELL);
+        assert!(run.text().starts_with("WKT,feature,id,engine,station,x,y,width\nPOINT ("));
+        run.text().lines().count()
+    };
+    assert!(count("1") < count("0.0001"), "{} {}", count("1"), count("0.0001"));
+}
+
+#[test]
+fn a_plot_is_drawn_of_profiles_alone() {
+    let two = format!("{DUMBBELL}\n{DUMBBELL}\n");
+    let plot = medial_with(&["clearance", "-", "--profile", "--to", "svg"], &two);
+    assert_eq!((plot.status, plot.errors.as_str()), (Some(0), ""));
+    assert!(plot.text().starts_with("<svg") && plot.text().contains(">feature 1<"));
+    assert!(plot.text().contains(">2 at "));
+    let necks = medial_with(&["clearance", "-", "--to", "svg"], DUMBBELL);
+    assert_eq!(necks.status, Some(2));
+    assert!(necks.errors.contains("svg is the plot of --profile"), "{}", necks.errors);
+    let wrong: [&[&str]; 4] = [
+        &["--profile", "--min", "2"],
+        &["--profile", "--largest"],
+        &["--tolerance", "1"],
+        &["--profile", "--side", "both"],
+    ];
+    for words in wrong {
+        assert_eq!(medial_with(&[&["clearance", "-"], words].concat(), DUMBBELL).status, Some(2));
+    }
 }

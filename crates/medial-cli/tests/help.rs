@@ -10,9 +10,20 @@ use std::process::Command;
 
 #[test]
 fn the_examples_of_every_command_work() {
-    for command in
-        ["axis", "prune", "centerline", "voronoi", "locate", "check", "compare", "compress"]
-    {
+    for command in [
+        "axis",
+        "prune",
+        "centerline",
+        "offset",
+        "clearance",
+        "carve",
+        "walls",
+        "voronoi",
+        "locate",
+        "check",
+        "compare",
+        "compress",
+    ] {
         let help = medial(&[command, "--help"]);
         assert_eq!((help.status, help.errors.as_str()), (Some(0), ""));
         let text = help.text().to_owned();

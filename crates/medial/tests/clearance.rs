@@ -6,7 +6,7 @@ use medial::axis::{Engine, MedialAxis, Side};
 use medial::domain::{self, Corner, Domain};
 use medial::engine::{Options, exterior, path_tracing};
 use medial::geom::Point;
-use medial::ops::{Neck, largest_disks, necks};
+use medial::ops::{Neck, Plateau, largest_disks, necks};
 use support::plane::{distance, is_inside};
 use support::random::{self, Family, Ground, Random};
 use support::shapes;
@@ -32,7 +32,11 @@ fn a_convex_shape_has_no_neck_and_a_square_one_largest_disk() {
     let axis = path_tracing(&square).unwrap();
     let largest = largest_disks(&square, &axis).unwrap();
     assert_eq!(largest.len(), 1);
-    assert_eq!(axis.keypoints().at(largest[0]).position, Point::new(1.0, 1.0));
+    assert_eq!((largest[0].radius, largest[0].middle), (1.0, Point::new(1.0, 1.0)));
+    assert_eq!(
+        (largest[0].keypoints.len(), largest[0].paths.len(), largest[0].length),
+        (1, 0, 0.0)
+    );
 }
 
 #[test]
@@ -48,10 +52,71 @@ fn the_neck_between_two_corners_lies_halfway() {
     let axis = path_tracing(&dumbbell).unwrap();
     let below = |limit: f64| necks(&dumbbell, &axis, Some(limit)).unwrap().len();
     assert_eq!((below(2.0), below(2.0_f64.next_up())), (0, 1));
-    // Both rooms have the same largest disk, at both ends of a level path.
+    // In both rooms the largest disk may move a little towards the neck.
     let largest = largest_disks(&dumbbell, &axis).unwrap();
-    assert_eq!(largest.len(), 4);
-    assert!(largest.iter().all(|&k| axis.keypoints().at(k).radius == 2.0));
+    assert_eq!(largest.len(), 2);
+    let is_passage = |plateau: &Plateau| (plateau.keypoints.len(), plateau.paths.len()) == (2, 1);
+    assert!(largest.iter().all(|plateau| plateau.radius == 2.0 && is_passage(plateau)));
+}
+
+/// Radius, length and middle of each place of largest disks.
+fn largest(wkt: &str) -> Vec<(f64, f64, Point)> {
+    let domain = shapes::wkt(wkt);
+    let axis = path_tracing(&domain).unwrap();
+    let found = largest_disks(&domain, &axis).unwrap().into_iter();
+    let mut found: Vec<_> = found.map(|p| (p.radius, p.length, p.middle)).collect();
+    found.sort_by(|one, other| one.2.lexicographic(other.2));
+    found
+}
+
+#[test]
+fn the_spine_of_a_rectangle_is_one_plateau() {
+    let rectangle = "POLYGON ((0 0, 6 0, 6 2, 0 2, 0 0))";
+    assert_eq!(largest(rectangle), [(1.0, 4.0, Point::new(3.0, 1.0))]);
+    // However many elements lie along it.
+    let parts = shapes::wkt("POLYGON ((0 0, 1 0, 2.5 0, 6 0, 6 2, 4 2, 1.5 2, 0 2, 0 0))");
+    let axis = path_tracing(&parts).unwrap();
+    let found = largest_disks(&parts, &axis).unwrap();
+    assert_eq!((found.len(), found[0].length, found[0].middle), (1, 4.0, Point::new(3.0, 1.0)));
+    assert_eq!(found[0].paths.len() + 1, found[0].keypoints.len());
+    assert!(found[0].keypoints.is_sorted());
+    let x = |&k: &u32| axis.keypoints().at(k).position.x;
+    let mut along: Vec<f64> = found[0].keypoints_along(&axis).iter().map(x).collect();
+    if along[0] > 1.0 {
+        along.reverse();
+    }
+    assert_eq!(
+        (along.len(), along[0], along[along.len() - 1]),
+        (found[0].keypoints.len(), 1.0, 5.0)
+    );
+    assert!(along.is_sorted());
+}
+
+#[test]
+fn equal_disks_that_no_level_path_joins_are_two_plateaus() {
+    // Two squares of side 4; the corridor misses the point where each largest disk touches its wall.
+    let rooms =
+        "POLYGON ((0 0, 4 0, 4 2.5, 6 2.5, 6 0, 10 0, 10 4, 6 4, 6 3.5, 4 3.5, 4 4, 0 4, 0 0))";
+    let ends = [Point::new(2.0, 2.0), Point::new(8.0, 2.0)];
+    assert_eq!(largest(rooms), ends.map(|p| (2.0, 0.0, p)));
+    // A level passage of the same radius joins two rooms that are no wider.
+    let hall = "POLYGON ((0 0, 9 0, 9 2, 0 2, 0 0), (4.4 0.9, 4.4 1.1, 4.6 1.1, 4.6 0.9, 4.4 0.9))";
+    let found = largest(hall);
+    assert_eq!(found.len(), 2);
+    assert!(found.iter().all(|&(radius, length, _)| radius == 1.0 && length > 2.0), "{found:?}");
+}
+
+#[test]
+fn corners_of_a_frame_are_wider_than_its_sides() {
+    // Where arms of width 2 meet, r = (2 - r) √2.
+    let radius = 4.0 - 8.0_f64.sqrt();
+    let l = largest("POLYGON ((0 0, 7 0, 7 2, 2 2, 2 7, 0 7, 0 0))");
+    assert_eq!(l.len(), 1);
+    assert!((l[0].0 - radius).abs() < 1e-15 && l[0].1 == 0.0 && l[0].2.x == l[0].2.y, "{l:?}");
+    // A hole in the middle of a square: no closed passage, but four points.
+    let frame = largest("POLYGON ((0 0, 6 0, 6 6, 0 6, 0 0), (2 2, 2 4, 4 4, 4 2, 2 2))");
+    assert_eq!(frame.len(), 4);
+    assert!(frame.iter().all(|&(r, length, _)| (r - radius).abs() < 1e-15 && length == 0.0));
 }
 
 #[test]
@@ -198,10 +263,45 @@ fn the_largest_disk_is_that_of_a_search() {
         let Ok(domain) = shapes::of(&polygons) else { continue };
         let axis = path_tracing(&domain).unwrap();
         let largest = largest_disks(&domain, &axis).unwrap();
-        let radius = axis.keypoints().at(largest[0]).radius;
+        let radius = largest[0].radius;
         for _ in 0..200 {
             let p = Point::new(random.unit(), random.unit());
             assert!(!is_inside(&domain, p) || distance(&domain, p) <= radius * (1.0 + 1e-12));
         }
     }
+}
+
+#[test]
+fn random_plateaus_are_chains_of_largest_disks() {
+    let mut random = Random(12);
+    let (mut ties, mut passages) = (0, 0);
+    for _ in 0..12_000 {
+        let polygons = random::shape(&mut random, Family::Tangle, Ground::Grid(6));
+        let Ok(domain) = shapes::of(&polygons) else { continue };
+        let axis = path_tracing(&domain).unwrap();
+        let found = largest_disks(&domain, &axis).unwrap();
+        let mut keypoints: Vec<u32> = found.iter().flat_map(|p| p.keypoints.clone()).collect();
+        keypoints.sort_unstable();
+        assert!(keypoints.windows(2).all(|pair| pair[0] < pair[1]), "{found:?}");
+        for plateau in &found {
+            let along = plateau.keypoints_along(&axis);
+            assert_eq!(along.len(), plateau.paths.len() + 1);
+            for (pair, &number) in along.windows(2).zip(&plateau.paths) {
+                let path = axis.paths().at(number);
+                assert!(pair == [path.from, path.to] || pair == [path.to, path.from]);
+            }
+            let mut sorted = along.clone();
+            sorted.sort_unstable();
+            assert_eq!(sorted, plateau.keypoints);
+            // It is straight.
+            let [from, to] =
+                [along[0], along[along.len() - 1]].map(|k| axis.keypoints().at(k).position);
+            assert!(((to - from).norm() - plateau.length).abs() < 1e-12);
+            assert!((plateau.middle - (from + to) * 0.5).norm() < 1e-12);
+            assert!((distance(&domain, plateau.middle) - plateau.radius).abs() < 1e-12);
+            passages += usize::from(plateau.length > 0.0);
+        }
+        ties += usize::from(found.len() > 1);
+    }
+    assert!(ties > 10 && passages > 100, "{ties} {passages}");
 }

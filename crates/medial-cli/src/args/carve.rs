@@ -14,9 +14,9 @@ form is in the columns), svg (seen from above, curves as they are), gcode (a pro
 the like; needs --feed and --safe-height).
 
 Examples:
-  medial carve fixtures/glyph.wkt --angle 60 -o glyph.svg
-  medial carve fixtures/glyph.wkt --angle 90 --depth 40 --clear 10,8 --to csv
-  medial carve fixtures/glyph.wkt --angle 60 --feed 800 --safe-height 5 --spindle 18000 -o glyph.nc
+  medial carve fixtures/glyph.wkt --angle 60 --leave 3 -o glyph.svg
+  medial carve fixtures/logo.wkt --angle 60 --depth 6 --clear 1,0.8 --to csv
+  medial carve fixtures/logo.wkt --angle 60 --feed 800 --safe-height 5 --spindle 18000 -o logo.nc
 
 Exit status: 0 all done; 1 no usable result; 2 wrong usage; 3 some features were left out.";
 

@@ -10,12 +10,17 @@ is a line between the two elements, which are named; the narrowest come first. B
 may be as long as a passage, and is drawn in its middle.
 Two elements that one tiny edge joins are near without a neck; polygons may have edges shorter than --min.
 
-Formats: geojson, geojsonl, csv, wkt, wkb.
+--profile writes the width along the main line of each feature, the one that medial centerline gives by
+default: points so near each other that the width between them is linear within the tolerance.
+
+Formats: geojson, geojsonl, csv, wkt, wkb; with --profile also svg, a plot.
 
 Examples:
   medial clearance fixtures/river.geojson --min 2 -o narrow.geojson
   medial clearance fixtures/lake.rings --side exterior --min 1 --to csv
   medial clearance fixtures/river.geojson --largest --to csv
+  medial clearance fixtures/river.geojson --profile -o widths.svg
+  medial clearance fixtures/river.geojson --profile --tolerance 0.01 --to csv
 
 Exit status: 0 all done; 1 no usable result; 2 wrong usage; 3 some features were left out.";
 
@@ -30,9 +35,18 @@ pub struct ClearanceArgs {
     /// Write necks narrower than this only, in units of the input
     #[arg(long, value_name = "W", value_parser = positive, allow_negative_numbers = true)]
     pub min: Option<f64>,
-    /// Write the largest inscribed disks instead: points, with twice the radius as width
+    /// Write where the largest inscribed disks lie instead, with twice the radius as width: points, or
+    /// lines along passages between parallel edges
     #[arg(long, conflicts_with_all = ["min", "side", "frame"])]
     pub largest: bool,
+    /// Write the width along the main line of each feature instead: points, or a plot
+    #[arg(long, conflicts_with_all = ["min", "largest", "side", "frame"])]
+    pub profile: bool,
+    /// Largest error of the width of a profile between two of its points, in units of the input; by
+    /// default 1e-4 of the longer side of the feature's box
+    #[arg(long, value_name = "T", value_parser = positive, allow_negative_numbers = true,
+          requires = "profile")]
+    pub tolerance: Option<f64>,
     /// Who computes the axis: path_tracing, divide_and_conquer
     #[arg(long, value_name = "NAME", default_value = "path_tracing", value_parser = engine)]
     pub engine: Engine,

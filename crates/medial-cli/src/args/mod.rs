@@ -51,7 +51,8 @@ pub enum Command {
     Centerline(CenterlineArgs),
     /// Compute parallel curves of polygons, inward or outward
     Offset(OffsetArgs),
-    /// Find where polygons are narrow, or near one another, and their largest inscribed disks
+    /// Find where polygons are narrow, or near one another, their largest inscribed disks, or their width
+    /// along the main line
     Clearance(ClearanceArgs),
     /// Compute the tool path of a V-bit that carves polygons
     Carve(CarveArgs),

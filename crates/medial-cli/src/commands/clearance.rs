@@ -1,6 +1,7 @@
 use super::axis::trace;
 use super::features::Run;
-use super::records::{LINES, Plan};
+use super::records::{Found, LINES, Plan};
+use super::sink::title;
 use crate::args::ClearanceArgs;
 use crate::failure::{Failure, Status};
 use crate::input::Documents;
@@ -8,9 +9,15 @@ use crate::report::Entry;
 use crate::timings::timed;
 use medial::axis::MedialAxis;
 use medial::domain::Domain;
+use medial::engine::interior;
 use medial::geom::Point;
-use medial::ops::{Neck, largest_disks, necks};
+use medial::ops::{
+    CenterlineError, CenterlineOptions, Neck, Plateau, Station, centerlines, largest_disks, necks,
+    profile,
+};
 use medial_io::record::{Record, Shape, Value};
+use medial_io::svg::{Options, Profile, write_profiles};
+use medial_io::{Format, domain_tolerance};
 
 const COLUMNS: &[&str] = &[
     "kind",
@@ -31,10 +38,22 @@ const COLUMNS: &[&str] = &[
     "right_part",
 ];
 
+/// Those of a station of a profile.
+const STATION_COLUMNS: &[&str] = &["station", "x", "y", "width"];
+
+/// Formats of profiles: those of lines, and the plot.
+const PROFILES: &[Format] =
+    &[Format::GeoJson, Format::GeoJsonLines, Format::Csv, Format::Wkt, Format::Wkb, Format::Svg];
+
 /// `medial clearance`.
 pub fn run(args: &ClearanceArgs) -> Result<Status, Failure> {
     args.region.check()?;
-    let mut run = Run::new(&args.common)?;
+    let run = Run::new(&args.common)?;
+    if args.profile { profiles(args, run) } else { places(args, run) }
+}
+
+/// Writes necks, or the largest disks.
+fn places(args: &ClearanceArgs, mut run: Run<'_>) -> Result<Status, Failure> {
     let plan = Plan {
         target: &args.target,
         thing: if args.largest { "disks" } else { "necks" },
@@ -42,6 +61,9 @@ pub fn run(args: &ClearanceArgs) -> Result<Status, Failure> {
         columns: COLUMNS,
         engine: args.engine,
     };
+    if plan.asked()? == Format::Svg {
+        return Err(Failure::Usage("svg is the plot of --profile; see --to in --help".to_owned()));
+    }
     let input = run.open_with(&args.input, Documents::AsPolygons)?;
     plan.run(run, &input, |_, domain, stages, options| {
         let axes = timed(&mut stages.engine, || trace(args.engine, &args.region, domain, options))?;
@@ -55,11 +77,49 @@ pub fn run(args: &ClearanceArgs) -> Result<Status, Failure> {
     })
 }
 
+/// Writes the width along main lines.
+fn profiles(args: &ClearanceArgs, mut run: Run<'_>) -> Result<Status, Failure> {
+    let plan = Plan {
+        target: &args.target,
+        thing: "profiles",
+        formats: PROFILES,
+        columns: STATION_COLUMNS,
+        engine: args.engine,
+    };
+    let input = run.open_with(&args.input, Documents::AsPolygons)?;
+    let format = plan.format()?;
+    plan.run_and_draw(
+        run,
+        &input,
+        |feature, domain, stages, options| {
+            let axis = timed(&mut stages.engine, || interior(domain, args.engine, options))
+                .map_err(|error| Entry::unfinished(&error))?;
+            let tolerance = args.tolerance.unwrap_or_else(|| domain_tolerance(domain));
+            let stations = timed(&mut stages.operations, || {
+                let lines = centerlines(domain, &axis, &CenterlineOptions::default())
+                    .map_err(|error| Entry::no_line(&error))?;
+                let line = lines.first().ok_or_else(|| Entry::no_line(&CenterlineError::NoAxis))?;
+                Ok(profile(line, tolerance))
+            })?;
+            Ok(if format == Format::Svg {
+                Found::Part(Profile { feature: feature.index, stations })
+            } else {
+                Found::Records(stations.iter().map(station_record).collect())
+            })
+        },
+        |profiles| {
+            let what = if profiles.len() > 1 { "Width profiles" } else { "Width profile" };
+            let options = Options { title: title(what, &args.input), ..Options::default() };
+            write_profiles(profiles, &options)
+        },
+    )
+}
+
 fn found(args: &ClearanceArgs, domain: &Domain, axis: &MedialAxis) -> Result<Vec<Record>, Entry> {
     let wrong = |error| Entry::internal(&error);
     if args.largest {
-        let disks = largest_disks(domain, axis).map_err(wrong)?;
-        return Ok(disks.into_iter().map(|keypoint| disk_record(axis, keypoint)).collect());
+        let plateaus = largest_disks(domain, axis).map_err(wrong)?;
+        return Ok(plateaus.iter().map(|plateau| plateau_record(axis, plateau)).collect());
     }
     let necks = necks(domain, axis, args.min).map_err(wrong)?;
     Ok(necks.iter().map(|neck| neck_record(axis, neck)).collect())
@@ -75,11 +135,22 @@ fn neck_record(axis: &MedialAxis, neck: &Neck) -> Record {
     Record { values, shape: Shape::Line(neck.footpoints.to_vec()) }
 }
 
-fn disk_record(axis: &MedialAxis, keypoint: u32) -> Record {
-    let disk = axis.keypoints().at(keypoint);
-    let mut values = values(axis, "largest", 2.0 * disk.radius, 0.0, disk.position);
+fn plateau_record(axis: &MedialAxis, plateau: &Plateau) -> Record {
+    let Plateau { radius, length, middle, .. } = *plateau;
+    let mut values = values(axis, "largest", 2.0 * radius, length, middle);
     values.resize(COLUMNS.len(), Value::None);
-    Record { values, shape: Shape::Point(disk.position) }
+    let position = |k: u32| axis.keypoints().at(k).position;
+    let shape = match &plateau.keypoints_along(axis)[..] {
+        [_] => Shape::Point(middle),
+        along => Shape::Line(along.iter().copied().map(position).collect()),
+    };
+    Record { values, shape }
+}
+
+fn station_record(station: &Station) -> Record {
+    let Station { along, point, width } = *station;
+    let values = [along, point.x, point.y, width].map(Value::from).to_vec();
+    Record { values, shape: Shape::Point(point) }
 }
 
 fn values(axis: &MedialAxis, kind: &str, width: f64, length: f64, at: Point) -> Vec<Value> {

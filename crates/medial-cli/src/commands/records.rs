@@ -14,6 +14,7 @@ use medial::engine;
 use medial_io::record::{self, Record};
 use medial_io::{Feature, Format};
 use std::io::IsTerminal as _;
+use std::path::Path;
 use std::time::Duration;
 
 /// How records are made and written.
@@ -35,16 +36,25 @@ pub const LINES: &[Format] =
 pub const POLYGONS: &[Format] = &record::FORMATS;
 
 impl Plan<'_> {
+    /// The file of the output, if it is not standard output.
+    fn file(&self) -> Option<&Path> {
+        self.target.output.as_deref().filter(|path| path.as_os_str() != "-")
+    }
+
+    /// The format that is asked for.
+    pub fn asked(&self) -> Result<Format, Failure> {
+        format_of(self.target.to, self.file())
+    }
+
     /// The format of the output, if the records have it.
     pub fn format(&self) -> Result<Format, Failure> {
-        let file = self.target.output.as_deref().filter(|path| path.as_os_str() != "-");
-        let format = format_of(self.target.to, file)?;
+        let format = self.asked()?;
         if !self.formats.contains(&format) {
             let names = self.formats.iter().map(|format| format.name()).collect::<Vec<_>>();
             let (thing, names) = (self.thing, names.join(", "));
             return Err(Failure::Usage(format!("{thing} are written as {names}, not as {format}")));
         }
-        if format == Format::Wkb && file.is_none() && std::io::stdout().is_terminal() {
+        if format == Format::Wkb && self.file().is_none() && std::io::stdout().is_terminal() {
             return Err(Failure::Usage("a terminal shows no wkb; name a file with -o".to_owned()));
         }
         Ok(format)

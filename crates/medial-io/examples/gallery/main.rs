@@ -7,6 +7,7 @@
 mod both_sides;
 mod bounds;
 mod branches;
+mod carving;
 mod compress;
 mod lake;
 mod lee;
@@ -19,6 +20,7 @@ mod lee_9_11;
 mod lesson;
 mod letter;
 mod offsets;
+mod profile;
 mod pruned;
 mod shape;
 mod sheet;
@@ -61,7 +63,7 @@ const LESSONS: [Lesson; 12] = [
 ];
 
 /// Pictures besides, each in a file of its name.
-const PICTURES: [(&str, Lesson); 15] = [
+const PICTURES: [(&str, Lesson); 17] = [
     ("lee-1-2", lee_1_2::LESSON),
     ("voronoi", voronoi::LESSON),
     ("both-sides", both_sides::LESSON),
@@ -77,6 +79,8 @@ const PICTURES: [(&str, Lesson); 15] = [
     ("smooth", smooth::LESSON),
     ("compress", compress::LESSON),
     ("offsets", offsets::LESSON),
+    ("profile", profile::LESSON),
+    ("carving", carving::LESSON),
 ];
 
 const HEAD: &str = "\

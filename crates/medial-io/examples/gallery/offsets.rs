@@ -42,10 +42,9 @@ fn draw() -> Fallible<String> {
     }
     let mut panel = sheet.panel(window, "necks, and the largest disk");
     panel.domain(domain);
-    for keypoint in largest_disks(domain, axis)? {
-        let disk = axis.keypoints().at(keypoint);
-        panel.disk(disk.position, disk.radius, DISK);
-        panel.point(disk.position, TEAL);
+    for plateau in largest_disks(domain, axis)? {
+        panel.disk(plateau.middle, plateau.radius, DISK);
+        panel.point(plateau.middle, TEAL);
     }
     let curves: Vec<Curve> = axis.paths().iter().map(|path| axis.curve(&path)).collect();
     panel.curves(&curves, FINE);

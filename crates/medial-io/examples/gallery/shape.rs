@@ -49,6 +49,14 @@ impl Shape {
         Self::of(Domain::from_polygons(&feature.polygons, &Options::default())?)
     }
 
+    /// The shape of the first geometry of a WKT fixture.
+    pub fn fixture(name: &str) -> Fallible<Self> {
+        let file = format!("{}/../../fixtures/{name}", env!("CARGO_MANIFEST_DIR"));
+        let bytes = fs::read(file)?;
+        let feature = read(Format::Wkt, &bytes)?.next().ok_or("no geometry in the fixture")??;
+        Self::of(Domain::from_polygons(&feature.polygons, &Options::default())?)
+    }
+
     /// The shape of a domain; refused if the judge finds a defect of its axis.
     pub fn of(domain: Domain) -> Fallible<Self> {
         let axis = judged(&domain)?;

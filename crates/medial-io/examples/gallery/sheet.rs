@@ -283,6 +283,22 @@ impl Panel<'_> {
         self.sheet.element("path", &format!("d=\"{data}\""), style);
     }
 
+    /// A polyline.
+    pub fn polyline(&mut self, points: &[Point], style: &str) {
+        let data: Vec<String> = points.iter().map(|&p| self.pair(p)).collect();
+        self.sheet.element("path", &format!("d=\"M{}\"", data.join("L")), style);
+    }
+
+    /// Rings that bound one area, not cut at the panel's border.
+    pub fn rings(&mut self, rings: &[Vec<Point>], style: &str) {
+        let ring = |ring: &Vec<Point>| {
+            let data: Vec<String> = ring.iter().map(|&p| self.pair(p)).collect();
+            format!("M{}Z", data.join("L"))
+        };
+        let data: String = rings.iter().map(ring).collect();
+        self.sheet.element("path", &format!("d=\"{data}\" fill-rule=\"evenodd\""), style);
+    }
+
     /// The part of a half-line within the panel; gives its end.
     pub fn ray(&mut self, from: Point, towards: Point, style: &str) -> Point {
         let (low, high) = self.window;

@@ -67,6 +67,24 @@ impl Frame {
         }
     }
 
+    /// The frame of a plot: the plane is the picture, in pixels right of and above the origin of the axes, with
+    /// so much room left of and below them, and above.
+    pub fn plot(extent: Point, room: Point, above: f64, options: &Options) -> Self {
+        let title = if options.title.is_empty() { 0.0 } else { TITLE };
+        let legend = if options.legend { LEGEND } else { 0.0 };
+        let (top, left) = (MARGIN + title + above, MARGIN + room.x);
+        let legend_y = top + extent.y + room.y + MARGIN;
+        Self {
+            low: Point::new(0.0, 0.0),
+            scale: 1.0,
+            origin: Point::new(left, top + extent.y),
+            size: Point::new(left + extent.x + MARGIN, legend_y + legend),
+            title_y: MARGIN + 10.0,
+            legend_y,
+            stroke: 1.0,
+        }
+    }
+
     /// A point of the plane in picture coordinates, y down.
     pub fn map(&self, p: Point) -> Point {
         let p = (p - self.low) * self.scale;

@@ -78,7 +78,7 @@ pub(super) fn plural(n: usize, word: &str) -> String {
 }
 
 /// Three significant digits, as in `0`, `1.25`, `1250`, `2.5e-7`.
-fn rounded(value: f64) -> String {
+pub(super) fn rounded(value: f64) -> String {
     let rough: f64 = format!("{value:.2e}").parse().unwrap_or(value);
     crate::number::shortest(rough)
 }

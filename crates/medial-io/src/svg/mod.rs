@@ -14,12 +14,14 @@ mod legend;
 mod lettering;
 mod offset;
 mod palette;
+mod profile;
 mod voronoi;
 mod walls;
 
 pub use carving::{ToolPath, write_tool_paths};
 pub use centerline::{MainLines, write_lines};
 pub use offset::{Parallels, write_offsets};
+pub use profile::{Profile, write_profiles};
 pub use voronoi::{Diagram, write_diagrams};
 pub use walls::{ThinWalls, write_walls};
 

@@ -16,6 +16,7 @@ mod limbs;
 mod measure;
 mod offset;
 mod outline;
+mod profile;
 mod prominence;
 mod radii;
 mod reconstruct;
@@ -34,7 +35,7 @@ pub use centerline::{
     Centerline, CenterlineError, CenterlineOptions, Extension, LineOptions, Route, Widths,
     centerlines, polylines,
 };
-pub use clearance::{Neck, largest_disks, necks};
+pub use clearance::{Neck, Plateau, largest_disks, necks};
 pub use compress::{
     CompressError, Compressed, Corners, DiskGraph, GridDisk, RebuildError, Run, compress,
 };
@@ -46,6 +47,7 @@ pub use limbs::{Limb, LimbPair, limb_pairs, limbs};
 pub use measure::Measure;
 pub use offset::{OffsetError, offset_margin, offsets};
 pub use outline::{Contour, Outline, OutlineError, OutlinePiece, OutlinePolygon, Sense};
+pub use profile::{Station, narrowest, profile};
 pub use reconstruct::{Disk, ReconstructError, disks, polygons_of, signed_area, tangent_polygons};
 #[cfg(feature = "union")]
 pub use reconstruct::{union_of_disks, without_crossings};

@@ -207,6 +207,11 @@ impl Band {
                 }
             };
             for [u, v] in parts.into_iter().flatten() {
+                let curve = curve.piece(u, v);
+                // A path may only touch a limit.
+                if curve.length() == 0.0 {
+                    continue;
+                }
                 let mut end = |at: f64, bound: f64, limit: f64, keypoint: u32| {
                     if at == bound && !thin.is_farther(keypoint) && thick.is_farther(keypoint) {
                         return keypoint;
@@ -217,7 +222,7 @@ impl Band {
                 // The limit of the greater width, if that is where it ends.
                 let from = end(u, 0.0, first, path.from);
                 let to = end(v, 1.0, last, path.to);
-                pieces.push(Piece { curve: curve.piece(u, v), nodes: [from, to] });
+                pieces.push(Piece { curve, nodes: [from, to] });
             }
         }
         let mut at = vec![Vec::new(); kinds.len()];
