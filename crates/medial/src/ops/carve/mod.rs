@@ -27,7 +27,7 @@ use super::rest::{Origin, Pruned};
 use crate::axis::{Curve, MedialAxis, Side};
 use crate::domain::Domain;
 use crate::geom::Point;
-use order::{places, trails};
+use order::{in_turn, places, trails};
 
 /// How a shape is carved; lengths are in units of the input.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -250,12 +250,16 @@ pub fn carve(
     carving.floor = outlines.swap_remove(0);
     let contours = |outline: &Outline| -> Vec<Vec<Move>> {
         let contours = outline.polygons.iter().flat_map(|polygon| &polygon.0);
-        contours.map(|c| c.strokes().iter().map(|s| Move::level(s, -depth)).collect()).collect()
+        let moves = contours.map(|c| c.strokes().iter().map(|s| Move::level(s, -depth)).collect());
+        moves.filter(|moves: &Vec<Move>| !moves.is_empty()).collect()
     };
     let walls = contours(&carving.floor).into_iter().flatten();
     carving.moves.extend(walls.map(|cut| (Role::Wall, cut)));
     carving.order(lift);
-    for contour in rounds.iter().flat_map(contours) {
+    let mut rounds: Vec<Vec<Move>> = rounds.iter().flat_map(contours).collect();
+    let starts: Vec<[Point; 2]> = rounds.iter().map(|round| [round[0].from().point; 2]).collect();
+    for k in in_turn(&starts) {
+        let contour = std::mem::take(&mut rounds[k]);
         let first = carving.moves.len() as u32;
         carving.moves.extend(contour.into_iter().map(|cut| (Role::Floor, cut)));
         carving.passes.push((first..carving.moves.len() as u32).map(|k| (k, false)).collect());

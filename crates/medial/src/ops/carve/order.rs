@@ -6,12 +6,13 @@
 //!    component the cheapest choice is found from the leaves inwards, the first trail being free.
 //! 2. The places left over are joined in pairs, as they follow one another in the tree, by lifts. Then all
 //!    is even, and one round tour takes every move (Hierholzer); cut at the lifts it is the trails.
-//! 3. Components follow one another along a space-filling curve.
+//! 3. From the end of one component the bit goes on to that which starts nearest, of some thousands that
+//!    follow one another along a space-filling curve.
 
 use std::collections::HashMap;
 
 use super::moves::{Move, Tip};
-use crate::geom::{Rect, hilbert};
+use crate::geom::{Point, Rect, hilbert};
 
 /// A move and whether it runs from its end to its start.
 pub(super) type Turned = (u32, bool);
@@ -36,15 +37,34 @@ pub(super) fn trails(moves: &[Move], lift: f64) -> Vec<Vec<Turned>> {
             tours.push(tour(&graph, &tree, lift));
         }
     }
-    let bounds = graph.places.iter().fold(Rect::EMPTY, |all, tip| all.with(tip.point));
-    let start = |trails: &Vec<Vec<Turned>>| {
-        trails.first().and_then(|trail| trail.first()).map(|&(k, back)| {
-            let first = &moves[k as usize];
-            if back { first.to() } else { first.from() }
-        })
+    let end = |trail: Option<&Vec<Turned>>, last: bool| {
+        let step = trail.and_then(|trail| if last { trail.last() } else { trail.first() });
+        let place = step.map(|&(k, back)| graph.ends[k as usize][usize::from(back != last)]);
+        place.map_or(Point::default(), |place| graph.places[place as usize].point)
     };
-    tours.sort_by_cached_key(|trails| start(trails).map(|tip| hilbert(&bounds, tip.point)));
-    tours.into_iter().flatten().collect()
+    let ends: Vec<[Point; 2]> =
+        tours.iter().map(|tour| [end(tour.first(), false), end(tour.last(), true)]).collect();
+    in_turn(&ends).into_iter().flat_map(|k| std::mem::take(&mut tours[k])).collect()
+}
+
+/// The numbers of some ways, each given by its ends, in an order in which they start near the end of the one
+/// before.
+pub(super) fn in_turn(ends: &[[Point; 2]]) -> Vec<usize> {
+    /// Ways among which the nearest is looked for.
+    const BLOCK: usize = 4096;
+    let bounds = ends.iter().fold(Rect::EMPTY, |all, way| all.with(way[0]));
+    let mut order: Vec<usize> = (0..ends.len()).collect();
+    order.sort_by_cached_key(|&k| hilbert(&bounds, ends[k][0]));
+    for block in order.chunks_mut(BLOCK) {
+        for k in 1..block.len() {
+            let here = ends[block[k - 1]][1];
+            let away = |&way: &usize| (ends[way][0] - here).norm2();
+            let left = block[k..].iter().map(away).enumerate();
+            let nearest = left.min_by(|a, b| a.1.total_cmp(&b.1)).map_or(0, |(place, _)| place);
+            block.swap(k, k + nearest);
+        }
+    }
+    order
 }
 
 /// The numbers of the places where moves start and end, and the places.
@@ -266,7 +286,6 @@ fn shallowest(graph: &Graph, tree: &Tree) -> u32 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geom::Point;
 
     fn line(from: (f64, f64), to: (f64, f64)) -> Move {
         let tip = |(x, y)| Tip { point: Point::new(x, y), z: -1.0 };
@@ -333,6 +352,21 @@ mod tests {
         assert_eq!(checked(&grid, 0.0), (4, 24.0));
         let (n, length) = checked(&grid, 2.5);
         assert!(n == 1 && (27.0..=28.0).contains(&length), "{length}");
+    }
+
+    #[test]
+    fn ways_follow_one_another_nearby() {
+        // Circles around two centres, larger and larger, that start on their left.
+        let starts: Vec<[Point; 2]> = (1..=20)
+            .flat_map(|k| [0.0, 100.0].map(|x| [Point::new(x - f64::from(k), 0.0); 2]))
+            .collect();
+        let order = in_turn(&starts);
+        let jumps = order.windows(2).map(|pair| (starts[pair[1]][0] - starts[pair[0]][1]).norm());
+        let far = jumps.filter(|&jump| jump > 20.0).count();
+        assert!(far <= 1, "{far} jumps: {order:?}");
+        let mut all = order;
+        all.sort_unstable();
+        assert!(all.into_iter().eq(0..40));
     }
 
     #[test]
