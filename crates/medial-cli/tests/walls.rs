@@ -18,6 +18,11 @@ fn a_wall_is_a_line_with_the_width_as_third_coordinate() {
     assert_eq!(walls[0]["geometry"]["coordinates"], line);
     let wkt = medial_with(&["walls", "-", "--max", "1", "--to", "wkt"], BLOCK);
     assert_eq!(wkt.text(), "LINESTRING Z (4 1.5 1, 8.5 1.5 1)\n");
+    let wkb = medial_with(&["walls", "-", "--max", "1", "--to", "wkb"], BLOCK);
+    let numbers = [4.0, 1.5, 1.0, 8.5, 1.5, 1.0];
+    let mut bytes = vec![1, 0xea, 3, 0, 0, 2, 0, 0, 0];
+    bytes.extend(numbers.iter().flat_map(|v: &f64| v.to_le_bytes()));
+    assert_eq!(wkb.out, bytes);
     let dot = "POLYGON ((0 0, 1 0, 1 1, 0 1, 0 0))";
     let wkt = medial_with(&["walls", "-", "--max", "1", "--to", "wkt"], dot);
     assert_eq!(wkt.text(), "POINT Z (0.5 0.5 1)\n");

@@ -1,6 +1,6 @@
 use medial::axis::{Curve, CurveKind, Keypoint, MedialAxis, Path};
 use medial::domain::Domain;
-use medial::geom::{Point, Rect};
+use medial::geom::Point;
 use medial::ops::{Measure, Significance};
 
 /// How axes become lines.
@@ -34,7 +34,7 @@ pub fn default_tolerance(axis: &MedialAxis) -> f64 {
 /// The tolerance for any axis of a domain: 1e-4 of the longer side of its box.
 #[must_use]
 pub fn domain_tolerance(domain: &Domain) -> f64 {
-    let bounds = domain.edges().iter().fold(Rect::EMPTY, |all, edge| all.with(edge.start));
+    let bounds = domain.bounds();
     let size = bounds.max - bounds.min;
     RELATIVE_TOLERANCE * f64::max(size.x, size.y)
 }

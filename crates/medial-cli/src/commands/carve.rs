@@ -83,7 +83,7 @@ pub fn run(args: &CarveArgs) -> Result<Status, Failure> {
             let axis = timed(&mut stages.engine, || interior(domain, args.engine, options))
                 .map_err(|error| Entry::unfinished(&error))?;
             let carving = timed(&mut stages.operations, || carve(domain, &axis, &asked))
-                .map_err(|error| Entry::refused("tool_path", &error.to_string()))?;
+                .map_err(|error| Entry::refused("tool_path", error.to_string()))?;
             let tolerance = args.tolerance.unwrap_or_else(|| domain_tolerance(domain));
             if matches!(format, Format::Svg | Format::GCode) {
                 let path = ToolPath { boundary: boundary(domain), carving };
@@ -93,12 +93,12 @@ pub fn run(args: &CarveArgs) -> Result<Status, Failure> {
         },
         |parts| match machine {
             Some(machine) => {
-                let paths: Vec<(Carving, f64)> =
-                    parts.iter().map(|part| (part.path.carving.clone(), part.tolerance)).collect();
+                let path = |Part { path, tolerance }| (path.carving, tolerance);
+                let paths: Vec<(Carving, f64)> = parts.into_iter().map(path).collect();
                 gcode::write(&paths, &machine, &name)
             }
             None => {
-                let paths: Vec<ToolPath> = parts.iter().map(|part| part.path.clone()).collect();
+                let paths: Vec<ToolPath> = parts.into_iter().map(|part| part.path).collect();
                 write_tool_paths(&paths, &Options { title: name, ..Options::default() })
             }
         },

@@ -110,7 +110,7 @@ fn profiles(args: &ClearanceArgs, mut run: Run<'_>) -> Result<Status, Failure> {
         |profiles| {
             let what = if profiles.len() > 1 { "Width profiles" } else { "Width profile" };
             let options = Options { title: title(what, &args.input), ..Options::default() };
-            write_profiles(profiles, &options)
+            write_profiles(&profiles, &options)
         },
     )
 }

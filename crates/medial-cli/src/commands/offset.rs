@@ -66,7 +66,7 @@ pub fn run(args: &OffsetArgs) -> Result<Status, Failure> {
                 Found::Records(outlines.iter().map(of).collect())
             }))
         },
-        |pictures| write_offsets(pictures, &options),
+        |pictures| write_offsets(&pictures, &options),
     )
 }
 

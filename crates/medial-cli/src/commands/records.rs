@@ -95,7 +95,7 @@ impl Plan<'_> {
         input: &Polygons,
         work: impl Fn(&Feature, &Domain, &mut Stages, &engine::Options<'_>) -> Result<Found<P>, Entry>
         + Sync,
-        draw: impl FnOnce(&[P]) -> String,
+        draw: impl FnOnce(Vec<P>) -> String,
     ) -> Result<Status, Failure> {
         let format = self.format()?;
         let layer = timed(&mut run.stages.read, || input.layer())?;
@@ -127,7 +127,7 @@ impl Plan<'_> {
         )?;
         if status != Status::NoResult {
             timed(&mut write, || {
-                let drawn = if parts.is_empty() { String::new() } else { draw(&parts) };
+                let drawn = if parts.is_empty() { String::new() } else { draw(parts) };
                 sink.finish(drawn.as_bytes())
             })?;
         }

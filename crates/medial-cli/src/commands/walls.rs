@@ -49,7 +49,7 @@ pub fn run(args: &WallsArgs) -> Result<Status, Failure> {
             }
             Ok(Found::Records(walls.iter().map(|wall| record(wall, tolerance)).collect()))
         },
-        |shapes| write_walls(shapes, &picture),
+        |shapes| write_walls(&shapes, &picture),
     )
 }
 

@@ -152,7 +152,7 @@ mod tests {
         let options = CarveOptions { depth: Some(4.0), ..CarveOptions::with_angle(90.0) };
         let carving = carve(&domain, &axis, &options).unwrap();
         let shape = ToolPath { boundary: vec![l], carving };
-        let picture = write_tool_paths(&[shape.clone()], &Options::default());
+        let picture = write_tool_paths(std::slice::from_ref(&shape), &Options::default());
         let group = |class: &str| {
             let start = picture.find(&format!("<g class=\"{class}\"")).unwrap();
             &picture[start..start + picture[start..].find("</g>").unwrap()]

@@ -5,7 +5,7 @@ use super::Report;
 use super::area::twice_area;
 use super::lines::supporting_lines;
 use super::origins::Origins;
-use crate::geom::{Double, Point};
+use crate::geom::{Double, Point, Rect};
 
 /// A boundary element by its number: an open edge, or the corner at the start of an edge.
 ///
@@ -132,6 +132,12 @@ pub struct Domain {
 }
 
 impl Domain {
+    /// The box of all corners.
+    #[must_use]
+    pub fn bounds(&self) -> Rect {
+        self.edges().iter().fold(Rect::EMPTY, |all, edge| all.with(edge.start))
+    }
+
     /// All edges, walk by walk in boundary order.
     #[inline]
     #[must_use]

@@ -30,7 +30,7 @@ use super::radii::{Limit, Radii};
 use crate::axis::{KeypointKind, MedialAxis, Side};
 use crate::domain::{Complement, Domain, Site};
 use crate::geom::predicates::Element;
-use crate::geom::{Point, Rect, orient2d};
+use crate::geom::{Point, orient2d};
 
 /// Why there is no offset.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -117,7 +117,7 @@ pub fn offsets(
 pub fn offset_margin(domain: &Domain, distance: f64) -> f64 {
     /// As a share of the distance.
     const BEYOND: f64 = 1.5;
-    let bounds = domain.edges().iter().fold(Rect::EMPTY, |all, edge| all.with(edge.start));
+    let bounds = domain.bounds();
     let size = bounds.max - bounds.min;
     size.x.max(size.y).max(BEYOND * distance)
 }
@@ -179,7 +179,7 @@ impl<'a> Shape<'a> {
 
 /// Keypoints where paths are cut off, all on a rectangle around a domain, in clockwise order.
 fn clockwise(domain: &Domain, ends: &[u32], axis: &MedialAxis, turns: &Turns<'_>) -> Vec<u32> {
-    let bounds = domain.edges().iter().fold(Rect::EMPTY, |all, edge| all.with(edge.start));
+    let bounds = domain.bounds();
     let centre = bounds.min + (bounds.max - bounds.min) * 0.5;
     let place = |k: u32| axis.keypoints().at(k).position;
     let is_left = |p: Point| p.x < centre.x || (p.x == centre.x && p.y < centre.y);

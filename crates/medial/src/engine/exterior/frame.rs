@@ -15,7 +15,7 @@ pub(super) struct Frame {
 impl Frame {
     /// The box of a domain, grown on all sides by a margin, or by its longer side.
     pub(super) fn around(domain: &Domain, margin: Option<f64>) -> Result<Self, EngineError> {
-        let bounds = domain.edges().iter().fold(Rect::EMPTY, |all, edge| all.with(edge.start));
+        let bounds = domain.bounds();
         let size = bounds.max - bounds.min;
         let margin = margin.unwrap_or(size.x.max(size.y));
         let grown = Point::new(margin, margin);
