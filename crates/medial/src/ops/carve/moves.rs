@@ -350,7 +350,7 @@ mod tests {
         let edge = Site::edge(p(-9.0, 0.0), p(9.0, 0.0));
         let parabola =
             Curve::new(&Site::vertex(p(0.0, 2.0)), &edge, (p(-2.0, 2.0), 2.0), (p(4.0, 5.0), 5.0));
-        let corners = [p(0.0, 3.0), p(0.0, -3.0)].map(|at| Site::vertex(at));
+        let corners = [p(0.0, 3.0), p(0.0, -3.0)].map(Site::vertex);
         let hyperbola = Curve::new(
             &corners[0],
             &corners[1],
