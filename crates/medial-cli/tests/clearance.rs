@@ -51,6 +51,35 @@ fn spacings_and_largest_disks_are_told_on_request() {
 }
 
 #[test]
+fn spacings_between_features_name_both() {
+    let two = "POLYGON ((0 0, 2 0, 2 2, 0 2, 0 0))\n\
+               MULTIPOLYGON (((9 9, 8 9, 9 8, 9 9)), ((5 0, 8 0, 8 3, 5 3, 5 0)))\n";
+    let words = ["clearance", "-", "--side", "exterior", "--together", "--min", "3.5"];
+    let spacings = features(&words, two);
+    assert_eq!(spacings.len(), 1);
+    let told = |name: &str| spacings[0]["properties"][name].as_u64().unwrap();
+    let mut named = ["left", "right"]
+        .map(|side| (told(&format!("{side}_feature")), told(&format!("{side}_polygon"))));
+    named.sort_unstable();
+    assert_eq!((named, &spacings[0]["properties"]["width"]), ([(0, 0), (1, 1)], &3.0.into()));
+    // By itself none of them has a spacing of 3.
+    let alone = features(&["clearance", "-", "--side", "exterior", "--min", "3.5"], two);
+    assert_eq!(alone.len(), 0);
+    // A bad feature is left out; features that cross are told.
+    let bad = format!("{two}POLYGON ((0 0, 1 1))\n");
+    let run = medial_with(&words, &bad);
+    assert_eq!((run.status, run.json()["features"].as_array().unwrap().len()), (Some(3), 1));
+    let crossing = format!("{two}POLYGON ((7 1, 12 1, 12 2, 7 2, 7 1))\n");
+    let run = medial_with(&words, &crossing);
+    assert_eq!((run.status, run.text()), (Some(1), ""));
+    assert!(
+        run.errors.contains("of feature 2") || run.errors.contains("of feature 1"),
+        "{}",
+        run.errors
+    );
+}
+
+#[test]
 fn a_profile_tells_the_width_along_the_main_line() {
     let stations = features(&["clearance", "-", "--profile"], DUMBBELL);
     let told = |name: &str| -> Vec<f64> {

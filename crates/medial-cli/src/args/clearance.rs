@@ -8,6 +8,7 @@ A neck is where the axis is nearer to the boundary than anywhere near: inside a 
 narrow, outside (--side exterior) a place where two of them, or two parts of one, are near each other. Each
 is a line between the two elements, which are named; the narrowest come first. Between parallel edges it
 may be as long as a passage, and is drawn in its middle.
+All polygons of a feature are one shape; with --together all features are.
 Two elements that one tiny edge joins are near without a neck; polygons may have edges shorter than --min.
 
 --profile writes the width along the main line of each feature, the one that medial centerline gives by
@@ -18,6 +19,7 @@ Formats: geojson, geojsonl, csv, wkt, wkb; with --profile also svg, a plot.
 Examples:
   medial clearance fixtures/river.geojson --min 2 -o narrow.geojson
   medial clearance fixtures/lake.rings --side exterior --min 1 --to csv
+  medial clearance fixtures/logo.wkt --side exterior --together --to csv
   medial clearance fixtures/river.geojson --largest --to csv
   medial clearance fixtures/river.geojson --profile -o widths.svg
   medial clearance fixtures/river.geojson --profile --tolerance 0.01 --to csv
@@ -47,6 +49,9 @@ pub struct ClearanceArgs {
     #[arg(long, value_name = "T", value_parser = positive, allow_negative_numbers = true,
           requires = "profile")]
     pub tolerance: Option<f64>,
+    /// Take all features as one shape, which they must be: spacings between features, and both features named
+    #[arg(long, conflicts_with = "profile")]
+    pub together: bool,
     /// Who computes the axis: path_tracing, divide_and_conquer
     #[arg(long, value_name = "NAME", default_value = "path_tracing", value_parser = engine)]
     pub engine: Engine,

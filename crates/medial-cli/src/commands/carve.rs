@@ -91,16 +91,19 @@ pub fn run(args: &CarveArgs) -> Result<Status, Failure> {
             }
             Ok(timed(&mut stages.write, || Found::Records(records(&carving, tolerance))))
         },
-        |parts| match machine {
-            Some(machine) => {
-                let path = |Part { path, tolerance }| (path.carving, tolerance);
-                let paths: Vec<(Carving, f64)> = parts.into_iter().map(path).collect();
-                gcode::write(&paths, &machine, &name)
-            }
-            None => {
-                let paths: Vec<ToolPath> = parts.into_iter().map(|part| part.path).collect();
-                write_tool_paths(&paths, &Options { title: name, ..Options::default() })
-            }
+        |parts, stages| {
+            let text = timed(&mut stages.write, || match machine {
+                Some(machine) => {
+                    let path = |Part { path, tolerance }| (path.carving, tolerance);
+                    let paths: Vec<(Carving, f64)> = parts.into_iter().map(path).collect();
+                    gcode::write(&paths, &machine, &name)
+                }
+                None => {
+                    let paths: Vec<ToolPath> = parts.into_iter().map(|part| part.path).collect();
+                    write_tool_paths(&paths, &Options { title: name, ..Options::default() })
+                }
+            });
+            Ok(text.into_bytes())
         },
     )
 }

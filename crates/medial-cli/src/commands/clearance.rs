@@ -6,18 +6,18 @@ use crate::args::ClearanceArgs;
 use crate::failure::{Failure, Status};
 use crate::input::Documents;
 use crate::report::Entry;
-use crate::timings::timed;
+use crate::timings::{Stages, timed};
 use medial::axis::MedialAxis;
-use medial::domain::Domain;
-use medial::engine::interior;
+use medial::domain::{self, Domain};
+use medial::engine::{self, interior};
 use medial::geom::Point;
 use medial::ops::{
     CenterlineError, CenterlineOptions, Neck, Plateau, Station, centerlines, largest_disks, necks,
     profile,
 };
-use medial_io::record::{Record, Shape, Value};
+use medial_io::record::{self, Record, Shape, Value};
 use medial_io::svg::{Options, Profile, write_profiles};
-use medial_io::{Format, domain_tolerance};
+use medial_io::{Feature, Format, domain_tolerance};
 
 const COLUMNS: &[&str] = &[
     "kind",
@@ -27,11 +27,13 @@ const COLUMNS: &[&str] = &[
     "x",
     "y",
     "left_kind",
+    "left_feature",
     "left_polygon",
     "left_ring",
     "left_index",
     "left_part",
     "right_kind",
+    "right_feature",
     "right_polygon",
     "right_ring",
     "right_index",
@@ -49,7 +51,11 @@ const PROFILES: &[Format] =
 pub fn run(args: &ClearanceArgs) -> Result<Status, Failure> {
     args.region.check()?;
     let run = Run::new(&args.common)?;
-    if args.profile { profiles(args, run) } else { places(args, run) }
+    match (args.profile, args.together) {
+        (true, _) => profiles(args, run),
+        (false, true) => together(args, run),
+        (false, false) => places(args, run),
+    }
 }
 
 /// Writes necks, or the largest disks.
@@ -61,20 +67,95 @@ fn places(args: &ClearanceArgs, mut run: Run<'_>) -> Result<Status, Failure> {
         columns: COLUMNS,
         engine: args.engine,
     };
+    check_format(&plan)?;
+    let input = run.open_with(&args.input, Documents::AsPolygons)?;
+    plan.run(run, &input, |feature, domain, stages, options| {
+        let place = |polygon: u32| (feature.index, polygon);
+        all_places(args, domain, options, stages, &place)
+    })
+}
+
+/// Fails if a picture of places is asked for.
+fn check_format(plan: &Plan<'_>) -> Result<(), Failure> {
     if plan.asked()? == Format::Svg {
         return Err(Failure::Usage("svg is the plot of --profile; see --to in --help".to_owned()));
     }
-    let input = run.open_with(&args.input, Documents::AsPolygons)?;
-    plan.run(run, &input, |_, domain, stages, options| {
-        let axes = timed(&mut stages.engine, || trace(args.engine, &args.region, domain, options))?;
-        timed(&mut stages.operations, || {
-            let mut records = Vec::new();
-            for axis in &axes {
-                records.extend(found(args, domain, axis)?);
-            }
-            Ok(records)
-        })
+    Ok(())
+}
+
+/// The feature of a polygon of a domain, and the number of the polygon in it.
+type Place<'p> = &'p dyn Fn(u32) -> (usize, u32);
+
+/// The records of a domain.
+fn all_places(
+    args: &ClearanceArgs,
+    domain: &Domain,
+    options: &engine::Options<'_>,
+    stages: &mut Stages,
+    place: Place<'_>,
+) -> Result<Vec<Record>, Entry> {
+    let axes = timed(&mut stages.engine, || trace(args.engine, &args.region, domain, options))?;
+    timed(&mut stages.operations, || {
+        let mut records = Vec::new();
+        for axis in &axes {
+            records.extend(found(args, domain, axis, place)?);
+        }
+        Ok(records)
     })
+}
+
+/// Writes necks, or the largest disks, of all features as one shape.
+fn together(args: &ClearanceArgs, mut run: Run<'_>) -> Result<Status, Failure> {
+    let plan = Plan {
+        target: &args.target,
+        thing: if args.largest { "disks" } else { "necks" },
+        formats: LINES,
+        columns: COLUMNS,
+        engine: args.engine,
+    };
+    check_format(&plan)?;
+    let format = plan.format()?;
+    let input = run.open_with(&args.input, Documents::AsPolygons)?;
+    let options = engine::Options { threads: run.all_threads(), ..engine::Options::default() };
+    let common = run.common;
+    plan.run_and_draw(
+        run,
+        &input,
+        // Each is a valid shape by itself, or left out and reported.
+        |feature, _, _, _| Ok(Found::Part((feature.index, feature.polygons.clone()))),
+        |members, stages| {
+            let mut places: Vec<(usize, u32)> = Vec::new();
+            let mut polygons = Vec::new();
+            for (index, members) in members {
+                places.extend((0..members.len() as u32).map(|polygon| (index, polygon)));
+                polygons.extend(members);
+            }
+            let place = |polygon: u32| places.get(polygon as usize).copied().unwrap_or_default();
+            let fails = |why: String| Failure::file(&input.name, why);
+            let asked = domain::Options { strict: common.strict, regroup: common.regroup };
+            let domain =
+                timed(&mut stages.domain, || Domain::from_polygons(&polygons, &asked)).map_err(
+                    |error| {
+                        let which = error.polygon().map_or_else(String::new, |polygon| {
+                            let (feature, own) = place(polygon);
+                            format!("; polygon {polygon} is polygon {own} of feature {feature}")
+                        });
+                        fails(format!(
+                            "the features are no shape together, with polygons counted over all of them: \
+                             {error}{which}"
+                        ))
+                    },
+                )?;
+            let records = all_places(args, &domain, &options, stages, &place)
+                .map_err(|entry| fails(format!("the features together: {}", entry.message)))?;
+            Ok(timed(&mut stages.write, || {
+                let mut bytes = Vec::new();
+                let whole = Feature::default();
+                record::write(&mut bytes, format, &whole, args.engine, COLUMNS, &records);
+                bytes
+            }))
+        },
+    )
 }
 
 /// Writes the width along main lines.
@@ -107,30 +188,37 @@ fn profiles(args: &ClearanceArgs, mut run: Run<'_>) -> Result<Status, Failure> {
                 Found::Records(stations.iter().map(station_record).collect())
             })
         },
-        |profiles| {
+        |profiles, stages| {
             let what = if profiles.len() > 1 { "Width profiles" } else { "Width profile" };
             let options = Options { title: title(what, &args.input), ..Options::default() };
-            write_profiles(&profiles, &options)
+            Ok(timed(&mut stages.write, || write_profiles(&profiles, &options).into_bytes()))
         },
     )
 }
 
-fn found(args: &ClearanceArgs, domain: &Domain, axis: &MedialAxis) -> Result<Vec<Record>, Entry> {
+fn found(
+    args: &ClearanceArgs,
+    domain: &Domain,
+    axis: &MedialAxis,
+    place: Place<'_>,
+) -> Result<Vec<Record>, Entry> {
     let wrong = |error| Entry::internal(&error);
     if args.largest {
         let plateaus = largest_disks(domain, axis).map_err(wrong)?;
         return Ok(plateaus.iter().map(|plateau| plateau_record(axis, plateau)).collect());
     }
     let necks = necks(domain, axis, args.min).map_err(wrong)?;
-    Ok(necks.iter().map(|neck| neck_record(axis, neck)).collect())
+    Ok(necks.iter().map(|neck| neck_record(axis, neck, place)).collect())
 }
 
-fn neck_record(axis: &MedialAxis, neck: &Neck) -> Record {
+fn neck_record(axis: &MedialAxis, neck: &Neck, place: Place<'_>) -> Record {
     let mut values = values(axis, "neck", neck.width, neck.length, neck.middle);
     for governor in neck.governors {
         let site = axis.sites().at(governor);
         values.push(site.kind.name().into());
-        values.extend([site.polygon, site.ring, site.index, site.part].map(Value::from));
+        let (feature, polygon) = place(site.polygon);
+        values.push(feature.into());
+        values.extend([polygon, site.ring, site.index, site.part].map(Value::from));
     }
     Record { values, shape: Shape::Line(neck.footpoints.to_vec()) }
 }

@@ -146,10 +146,15 @@ impl<'a> Run<'a> {
         }
     }
 
+    /// All threads that may work at once.
+    pub fn all_threads(&self) -> NonZeroUsize {
+        self.common.threads.unwrap_or_else(all_processors)
+    }
+
     /// How many features to work on at once, and with how many threads on each: where there are few
     /// features, the threads left over share the work on one.
     pub fn threads(&self, layer: &Layer<'_>) -> (NonZeroUsize, NonZeroUsize) {
-        let threads = self.common.threads.unwrap_or_else(all_processors);
+        let threads = self.all_threads();
         let features = layer.len.and_then(NonZeroUsize::new).unwrap_or(threads);
         let at_once = threads.min(features);
         let each = NonZeroUsize::new(threads.get() / at_once).unwrap_or(NonZeroUsize::MIN);

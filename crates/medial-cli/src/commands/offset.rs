@@ -66,7 +66,10 @@ pub fn run(args: &OffsetArgs) -> Result<Status, Failure> {
                 Found::Records(outlines.iter().map(of).collect())
             }))
         },
-        |pictures| write_offsets(&pictures, &options),
+        |pictures, stages| {
+            let draw = || write_offsets(&pictures, &options).into_bytes();
+            Ok(timed(&mut stages.write, draw))
+        },
     )
 }
 

@@ -84,18 +84,17 @@ impl Plan<'_> {
                     options: &engine::Options<'_>| {
             work(feature, domain, stages, options).map(Found::<()>::Records)
         };
-        self.run_and_draw(run, input, work, |_| String::new())
+        self.run_and_draw(run, input, work, |_, _| Ok(Vec::new()))
     }
 
-    /// The same where formats are pictures, or whatever is made of all that was found at once: `draw` makes
-    /// it.
+    /// The same where something is made of all features at once, a picture or records: `draw` makes it.
     pub fn run_and_draw<P: Send>(
         &self,
         mut run: Run<'_>,
         input: &Polygons,
         work: impl Fn(&Feature, &Domain, &mut Stages, &engine::Options<'_>) -> Result<Found<P>, Entry>
         + Sync,
-        draw: impl FnOnce(Vec<P>) -> String,
+        draw: impl FnOnce(Vec<P>, &mut Stages) -> Result<Vec<u8>, Failure>,
     ) -> Result<Status, Failure> {
         let format = self.format()?;
         let layer = timed(&mut run.stages.read, || input.layer())?;
@@ -126,9 +125,14 @@ impl Plan<'_> {
             |bytes| timed(&mut write, || sink.write(bytes)),
         )?;
         if status != Status::NoResult {
+            let drawn = if parts.is_empty() { Vec::new() } else { draw(parts, &mut run.stages)? };
             timed(&mut write, || {
-                let drawn = if parts.is_empty() { String::new() } else { draw(parts) };
-                sink.finish(drawn.as_bytes())
+                // What is no whole of its own goes where records go.
+                if matches!(format, Format::Svg | Format::GCode) {
+                    return sink.finish(&drawn);
+                }
+                sink.write(&drawn)?;
+                sink.finish(&[])
             })?;
         }
         run.stages.write += write;

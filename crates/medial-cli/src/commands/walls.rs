@@ -49,7 +49,9 @@ pub fn run(args: &WallsArgs) -> Result<Status, Failure> {
             }
             Ok(Found::Records(walls.iter().map(|wall| record(wall, tolerance)).collect()))
         },
-        |shapes| write_walls(&shapes, &picture),
+        |shapes, stages| {
+            Ok(timed(&mut stages.write, || write_walls(&shapes, &picture).into_bytes()))
+        },
     )
 }
 
