@@ -61,7 +61,7 @@ fn a_floor_has_its_wall_and_its_rounds() {
     assert_eq!((centre, &arc["properties"]["sense"]), ([&10.0.into(); 2], &"clockwise".into()));
     let run = medial_with(&["carve", "-", "--angle", "90", "--clear", "1,1"], L);
     assert_eq!(run.status, Some(2), "a floor needs a depth");
-    let tiny = ["carve", "-", "--angle", "90", "--depth", "2", "--clear", "1,1e-9"];
+    let tiny = ["carve", "-", "--angle", "90", "--depth", "2", "--clear", "0,1e-9"];
     let run = medial_with(&tiny, L);
     assert_eq!(run.status, Some(1));
     assert!(run.errors.contains("the step 0.000000001 is too small"), "{}", run.errors);
@@ -84,6 +84,15 @@ fn a_program_needs_feed_and_height_and_is_one_for_all_features() {
     let run = medial_with(&["carve", "-", "--angle", "90", "--feed", "9"], SQUARE);
     assert_eq!(run.status, Some(2));
     assert!(run.errors.contains("--feed is for gcode"), "{}", run.errors);
+    let low = [&machine[..], &["--safe-height", "1e-6"]].concat();
+    let run = medial_with(&low, SQUARE);
+    assert_eq!(run.status, Some(2));
+    assert!(run.errors.contains("the safe height 0.000001 is 0"), "{}", run.errors);
+    // One that is too small is left out; the other is done.
+    let tiny = format!("POLYGON ((0 0, 1e-5 0, 0 1e-5, 0 0))\n{SQUARE}\n");
+    let run = medial_with(&full, &tiny);
+    assert_eq!(run.status, Some(3));
+    assert!(run.errors.contains("feature 0: the tool path is") && run.text().ends_with("M2\n"));
 }
 
 #[test]
@@ -92,13 +101,14 @@ fn pictures_show_the_path_and_bad_angles_are_refused() {
     assert!(
         run.text().contains("<title>Tool path</title>") && run.text().contains("class=\"cuts\"")
     );
-    for angle in ["0", "180", "-5", "x"] {
+    for angle in ["0", "180", "-5", "1e-300", "x"] {
         let run = medial_with(&["carve", "-", &format!("--angle={angle}")], SQUARE);
         assert_eq!(run.status, Some(2), "{angle}");
     }
     // Without its corners a square is a point to drill.
     let drilled = features(&["carve", "-", "--angle", "90", "--leave", "5"], SQUARE);
     assert_eq!(drilled.len(), 1);
+    assert_eq!(drilled[0]["geometry"]["type"], "Point");
     let run = medial_with(&["axis", "-", "--to", "gcode"], SQUARE);
     assert!(run.errors.contains("medial carve"), "{}", run.errors);
 }

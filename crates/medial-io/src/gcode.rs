@@ -3,11 +3,12 @@
 //! # Contract
 //! Absolute coordinates in one unit, feeds by the minute, in the plane XY, no cutter compensation, no
 //! subroutines and no canned cycles: what LinuxCNC, Grbl and their like all read. Each pass begins and ends at the
-//! safe height. Straight moves are `G1`, arcs at one height `G2` and `G3` with `I` and `J`; curves are drawn
-//! within a tolerance. If a floor is cleared by a tool of its own, the program pauses for it once.
+//! safe height, above which nothing is cut. Straight moves are `G1`, arcs at one height `G2` and `G3` with `I` and `J`; curves are drawn
+//! within a tolerance. If a floor is cleared by a tool of its own, the program pauses for it once. What would
+//! not be the same after rounding, a height or a feed of nothing, is refused before.
 
-use medial::geom::Point;
-use medial::ops::{Carving, Move, Role, Sense, Tip};
+use medial::geom::{Point, Rect};
+use medial::ops::{Carving, Move, Role, Sense, Tip, carving_order};
 use std::fmt::Write as _;
 
 /// The unit of all lengths of a program, which is that of the input.
@@ -44,16 +45,129 @@ pub struct Machine {
     pub spindle: Option<f64>,
 }
 
+/// Why there is no program.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum GCodeError {
+    /// A number of the machine is written with few decimals, or digits.
+    #[error("the {name} {value} is {rounded} as it is written; give one from {least} to {MOST}")]
+    Machine {
+        /// Which one.
+        name: &'static str,
+        /// What was given.
+        value: f64,
+        /// What it becomes.
+        rounded: String,
+        /// The least that goes.
+        least: f64,
+    },
+    /// A shape is so small that little of it is left by the decimals, or larger than any machine.
+    #[error(
+        "the tool path is {size} across, for coordinates with {decimals} decimals; scale the shape"
+    )]
+    Size {
+        /// The longer side of its box.
+        size: f64,
+        /// Decimals of coordinates.
+        decimals: usize,
+    },
+    /// A shape is farther from the origin than any machine reaches.
+    #[error("the tool path reaches to ({x}, {y}, {z}); move or scale the shape to within {MOST}")]
+    Far {
+        /// Where it does.
+        x: f64,
+        /// Where it does.
+        y: f64,
+        /// Where it does.
+        z: f64,
+    },
+}
+
+/// The largest number in a program.
+const MOST: f64 = 1e7;
+
+/// The least size of a tool path, in steps of the last decimal.
+const FINE: f64 = 100.0;
+
+/// Most characters of the comment at the beginning: controllers have short lines.
+const COMMENT: usize = 60;
+
+impl Machine {
+    /// Whether all numbers are the same to a machine, but for rounding.
+    ///
+    /// # Errors
+    /// If one of them would be nothing, or is too large.
+    pub fn check(&self) -> Result<(), GCodeError> {
+        let step = |decimals: usize| 0.1_f64.powi(decimals as i32);
+        let length = self.unit.decimals();
+        let numbers = [
+            ("feed", Some(self.feed), FEED),
+            ("feed on the way down", Some(self.plunge), FEED),
+            ("safe height", Some(self.safe_height), length),
+            ("turns of the spindle", self.spindle, 0),
+        ];
+        for (name, value, decimals) in numbers {
+            let Some(value) = value else { continue };
+            let least = step(decimals);
+            if !(least..=MOST).contains(&value) {
+                let rounded = if value < least { "0" } else { "too much" }.to_owned();
+                return Err(GCodeError::Machine { name, value, rounded, least });
+            }
+        }
+        Ok(())
+    }
+
+    /// Whether a tool path is of a size that a machine has.
+    ///
+    /// # Errors
+    /// If it is too small for the decimals of its coordinates, or reaches too far.
+    pub fn check_path(&self, path: &Carving) -> Result<(), GCodeError> {
+        let tips = || path.moves.iter().flat_map(|(_, cut)| [cut.from(), cut.to()]);
+        let far = |tip: &Tip| tip.point.x.abs().max(tip.point.y.abs()).max(-tip.z);
+        let is_far = |tip: &Tip| far(tip).is_nan() || far(tip) > MOST;
+        if let Some(Tip { point: Point { x, y }, z }) = tips().find(is_far) {
+            return Err(GCodeError::Far { x, y, z });
+        }
+        let bounds = tips().fold(Rect::EMPTY, |all, tip| all.with(tip.point));
+        let deepest = tips().map(|tip| -tip.z).fold(0.0, f64::max);
+        let sides = bounds.max - bounds.min;
+        // A point to drill has a depth.
+        let size = sides.x.max(sides.y).max(deepest);
+        let decimals = self.unit.decimals();
+        if !path.moves.is_empty() && size < FINE * 0.1_f64.powi(decimals as i32) {
+            return Err(GCodeError::Size { size, decimals });
+        }
+        Ok(())
+    }
+}
+
+/// Decimals of feeds.
+const FEED: usize = 3;
+
 /// Chord of an arc, in steps of the last decimal, up to which it is written as a line: with both ends rounded
 /// to one place it would be a full circle.
 const SHORT: f64 = 100.0;
 
-/// A program that cuts some tool paths, each with the tolerance within which its curves are drawn; its title
-/// is a comment at the beginning.
-#[must_use]
-pub fn write(paths: &[(Carving, f64)], machine: &Machine, title: &str) -> String {
+/// A program that cuts some tool paths, each with the tolerance within which its curves are drawn, one after
+/// another as they are near; its title is a comment at the beginning.
+///
+/// # Errors
+/// If the machine or one of the paths does not pass its check.
+pub fn write(
+    paths: &[(Carving, f64)],
+    machine: &Machine,
+    title: &str,
+) -> Result<String, GCodeError> {
+    machine.check()?;
+    paths.iter().try_for_each(|(path, _)| machine.check_path(path))?;
+    let order = carving_order(&paths.iter().map(|(path, _)| path).collect::<Vec<_>>());
+    let paths: Vec<&(Carving, f64)> = order.iter().map(|&k| &paths[k]).collect();
     let mut program = Program { text: String::new(), machine, at: None, feed: None };
-    let comment: String = title.chars().filter(|c| !"()\r\n".contains(*c)).collect();
+    let comment: String = title
+        .chars()
+        .filter(|c| (' '..='~').contains(c) && !"()".contains(*c))
+        .take(COMMENT)
+        .collect();
     let unit = match machine.unit {
         Unit::Millimetre => "G21",
         Unit::Inch => "G20",
@@ -61,17 +175,22 @@ pub fn write(paths: &[(Carving, f64)], machine: &Machine, title: &str) -> String
     program.line(&format!("({comment})"));
     program.line(&format!("{unit} G90 G94 G17 G40"));
     program.start();
-    let clears = |path: &Carving| path.moves.iter().any(|(role, _)| *role == Role::Floor);
-    program.passes(paths, false);
-    if paths.iter().any(|(path, _)| clears(path)) {
+    let clears = |pass: &Vec<(u32, bool)>, path: &Carving| by_other_tool(path, pass);
+    program.passes(&paths, false);
+    if paths.iter().any(|(path, _)| path.passes.iter().any(|pass| clears(pass, path))) {
         program.stop();
         program.line("M0 (fit the tool that clears the floor)");
         program.start();
-        program.passes(paths, true);
+        program.passes(&paths, true);
     }
     program.stop();
     program.line("M2");
-    program.text
+    Ok(program.text)
+}
+
+/// Whether a pass is made by a tool of its own, and not by the bit.
+fn by_other_tool(path: &Carving, pass: &[(u32, bool)]) -> bool {
+    path.role(pass) == Some(Role::Floor) && path.clearing.is_some_and(|tool| tool.radius > 0.0)
 }
 
 struct Program<'a> {
@@ -111,10 +230,10 @@ impl Program<'_> {
     }
 
     /// The passes of the bit, or those of the tool that clears the floor.
-    fn passes(&mut self, paths: &[(Carving, f64)], floor: bool) {
+    fn passes(&mut self, paths: &[&(Carving, f64)], floor: bool) {
         for (path, tolerance) in paths {
             for pass in &path.passes {
-                if (path.role(pass) == Some(Role::Floor)) == floor {
+                if by_other_tool(path, pass) == floor {
                     self.pass(path.steps(pass).map(|(_, cut)| cut), *tolerance);
                 }
             }
@@ -126,7 +245,7 @@ impl Program<'_> {
             if k == 0 {
                 let [x, y, z] = self.place(cut.from());
                 self.line(&format!("G0 X{x} Y{y}"));
-                let feed = plain(self.machine.plunge, 3);
+                let feed = plain(self.machine.plunge, FEED);
                 self.line(&format!("G1 Z{z} F{feed}"));
                 self.feed = Some(self.machine.plunge);
                 self.at = Some([x, y, z]);
@@ -181,7 +300,7 @@ impl Program<'_> {
         if self.feed.replace(feed) == Some(feed) {
             return String::new();
         }
-        format!(" F{}", plain(feed, 3))
+        format!(" F{}", plain(feed, FEED))
     }
 
     fn place(&self, tip: Tip) -> [String; 3] {
@@ -276,7 +395,7 @@ mod tests {
         let l = [(0., 0.), (20., 0.), (20., 10.), (10., 10.), (10., 20.), (0., 20.)];
         let path = carved(&l, &CarveOptions::with_angle(90.0));
         let (passes, length) = (path.passes.len(), path.length());
-        let program = write(&[(path, 1e-3)], &MACHINE, "an (L)\n");
+        let program = write(&[(path, 1e-3)], &MACHINE, "an (L)\n").unwrap();
         assert!(program.starts_with("(an L)\nG21 G90 G94 G17 G40\nG0 Z5\n"), "{program}");
         assert!(program.ends_with("G0 Z5\nM2\n"), "{program}");
         let (plunges, way, deepest) = run(&program);
@@ -291,12 +410,36 @@ mod tests {
         let clearing = Some(Clearing { radius: 1.0, step: 1.0 });
         let options = CarveOptions { depth: Some(2.0), clearing, ..CarveOptions::with_angle(90.0) };
         let machine = Machine { spindle: Some(18000.0), ..MACHINE };
-        let program = write(&[(carved(&l, &options), 1e-3)], &machine, "l");
+        let program = write(&[(carved(&l, &options), 1e-3)], &machine, "l").unwrap();
         let (before, after) = program.split_once("M0 ").unwrap();
         assert_eq!((before.matches("M3 S18000\n").count(), before.matches("M5\n").count()), (1, 1));
         assert!(after.contains("M3 S18000\n") && after.contains("G2 X") && after.contains(" I"));
         assert_eq!(run(&program).2, -2.0);
         let inch = Machine { unit: Unit::Inch, ..MACHINE };
-        assert!(write(&[(carved(&l, &options), 1e-3)], &inch, "l").contains("\nG20 "));
+        let paths = [(carved(&l, &options), 1e-3)];
+        assert!(write(&paths, &inch, "l").unwrap().contains("\nG20 "));
+        // The bit itself needs no pause.
+        let clearing = Some(Clearing { radius: 0.0, step: 1.0 });
+        let own = carved(&l, &CarveOptions { clearing, ..options });
+        let program = write(&[(own, 1e-3)], &MACHINE, "l").unwrap();
+        assert!(!program.contains("M0 ") && program.contains("G2 X"));
+    }
+
+    #[test]
+    fn what_rounding_would_make_dangerous_is_refused() {
+        let square = |side: f64| [(0., 0.), (side, 0.), (side, side), (0., side)];
+        let path = |side: f64| [(carved(&square(side), &CarveOptions::with_angle(90.0)), 1e-3)];
+        let fails = |machine: Machine| write(&path(9.0), &machine, "").unwrap_err().to_string();
+        let low = fails(Machine { safe_height: 1e-5, ..MACHINE });
+        assert!(low.starts_with("the safe height 0.00001 is 0 as it is written"), "{low}");
+        assert!(fails(Machine { feed: 1e-4, ..MACHINE }).starts_with("the feed 0.0001 is 0"));
+        assert!(fails(Machine { plunge: 1e300, ..MACHINE }).contains("too much"));
+        assert!(fails(Machine { spindle: Some(0.3), ..MACHINE }).contains("spindle"));
+        for (side, why) in [(1e-5, "across"), (1e9, "reaches to")] {
+            let error = write(&path(side), &MACHINE, "").unwrap_err().to_string();
+            assert!(error.contains(why), "{error}");
+        }
+        let long = write(&path(9.0), &MACHINE, &"é(x)".repeat(200)).unwrap();
+        assert!(long.lines().all(|line| line.is_ascii() && line.len() < 80));
     }
 }

@@ -248,11 +248,11 @@ fn a_cone_is_cut_around_the_ends_of_what_was_pruned() {
 #[test]
 fn a_floor_is_flat_and_cleared_in_rounds() {
     let square = shapes::wkt("POLYGON ((0 0, 10 0, 10 10, 0 10, 0 0))");
-    let clearing = Some(Clearing { radius: 1.0, step: 1.5 });
+    let clearing = Some(Clearing { radius: 1.5, step: 1.0 });
     let options = CarveOptions { depth: Some(2.0), clearing, ..CarveOptions::with_angle(90.0) };
     let carving = carved(&square, &options);
     assert_eq!(carving.floor.area(), 36.0);
-    // Four corners and four walls in one pass, and rounds 3 and 4.5 from the boundary.
+    // Four corners and four walls in one pass, and rounds 3.5 and 4.5 from the boundary.
     let count = |role| carving.moves.iter().filter(|(r, _)| *r == role).count();
     assert_eq!([Role::Valley, Role::Wall, Role::Floor].map(count), [4, 4, 8]);
     assert_eq!(carving.passes.len(), 3);
@@ -286,6 +286,14 @@ fn what_cannot_be_carved_is_told() {
     }
     let clearing = Some(Clearing { radius: 1.0, step: 1.0 });
     assert_eq!(fails(CarveOptions { clearing, ..vee }), CarveError::NoFloor);
+    let clearing = Some(Clearing { radius: 1.0, step: 1.01 });
+    let error = fails(CarveOptions { clearing, depth: Some(1.0), ..vee });
+    assert!(matches!(error, CarveError::Gaps { .. }), "{error}");
+    let error = fails(CarveOptions { depth: Some(1e-90), ..vee });
+    assert!(matches!(error, CarveError::Length { name: "depth", .. }), "{error}");
+    // Deeper than the shape is anywhere is no limit.
+    let deep = carved(&square, &CarveOptions { depth: Some(1e300), ..vee });
+    assert_eq!(deep.moves, carved(&square, &vee).moves);
     let clearing = Some(Clearing { radius: 1.0, step: 1e-9 });
     let error = fails(CarveOptions { clearing, depth: Some(1.0), ..vee });
     assert!(matches!(error, CarveError::Step { .. }), "{error}");

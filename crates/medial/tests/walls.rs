@@ -60,6 +60,44 @@ fn a_frame_is_a_closed_wall() {
     assert!(found[0].length() < by_hand && found[0].length() > by_hand - 2.0);
 }
 
+/// A stroke of some length and of width 2 with round caps of so many segments for a quarter.
+fn stroke(length: f64, n: u32) -> Domain {
+    let cap = |centre: f64, start: f64| {
+        (0..=2 * n).map(move |k| {
+            let angle = start + f64::from(k) / f64::from(2 * n) * std::f64::consts::PI;
+            Point::new(centre + angle.cos(), angle.sin())
+        })
+    };
+    let quarter = std::f64::consts::FRAC_PI_2;
+    let ring = cap(length, -quarter).chain(cap(0.0, quarter)).collect();
+    Domain::from_polygons(&[vec![ring]], &domain::Options::default()).unwrap()
+}
+
+#[test]
+fn a_stroke_with_round_caps_is_one_wall() {
+    for n in [2, 4, 16, 64] {
+        for length in [0.3, 3.0, 40.0] {
+            let found = between(&stroke(length, n), 0.5, 3.0);
+            assert_eq!(found.len(), 1, "{n} {length} {found:?}");
+            assert!((found[0].length() - length).abs() < 0.2 + 0.5 * length.min(1.0));
+        }
+    }
+}
+
+#[test]
+fn a_limit_at_the_width_of_a_keypoint_is_decided_there() {
+    // A passage of width 2 between two rooms, open to both by reflex corners.
+    let level = shapes::wkt(
+        "POLYGON ((0 0, 3 0, 3 2, 7 2, 7 0, 10 0, 10 6, 7 6, 7 4, 3 4, 3 6, 0 6, 0 0))",
+    );
+    for max in [2.0_f64.next_down(), 2.0, 2.0_f64.next_up(), 2.1] {
+        let found = between(&level, 0.5, max);
+        let expected = usize::from(max >= 2.0);
+        assert_eq!(found.len(), expected, "{max} {found:?}");
+        assert!(found.iter().all(|wall| wall.length() > 3.9));
+    }
+}
+
 #[test]
 fn a_spike_is_a_wall_as_far_as_it_is_wide_enough() {
     // A triangle 20 long and 2 wide.

@@ -7,7 +7,9 @@ const CARVE_HELP: &str = "\
 A bit with a point, moved along the axis as deep as the boundary is away, cuts the shape out and just reaches
 its outline, up into the corners. z is 0 at the surface and negative below. With --depth the floor is flat
 below that: its wall is cut along the offset, and --clear adds the rounds of the tool that clears it.
-The order of moves takes few lifts: short ways are gone twice rather than to lift the bit for them.
+The order of moves takes few lifts: short ways are gone twice rather than to lift the bit for them (--lift).
+Curves that were drawn with segments have a small corner at each, which takes a way of its own: --leave
+leaves them out, and most of the way.
 
 Formats: geojson, geojsonl, csv, wkt, wkb (a record for each move, curves within the tolerance; their exact
 form is in the columns), svg (seen from above, curves as they are), gcode (a program for LinuxCNC, Grbl and
@@ -28,14 +30,14 @@ pub struct CarveArgs {
     pub input: PathBuf,
     #[command(flatten)]
     pub target: Target,
-    /// Full angle of the bit's point, in degrees, below 180
+    /// Full angle of the bit's point, in degrees, from 0.01 to 179.99
     #[arg(long, value_name = "DEG", value_parser = angle)]
     pub angle: f64,
     /// Depth at which the floor is flat, in units of the input
     #[arg(long, value_name = "H", value_parser = positive, allow_negative_numbers = true)]
     pub depth: Option<f64>,
-    /// Clear the floor with a tool of this radius (0 for the bit itself), in rounds so far apart, in units
-    /// of the input
+    /// Clear the floor where a tool of this radius fits (0 for the bit itself), in rounds so far apart, its
+    /// radius at most, in units of the input
     #[arg(long, value_name = "R,STEP", value_parser = clearing, requires = "depth")]
     pub clear: Option<(f64, f64)>,
     /// Leave what reaches no farther than this out of all that is cut, as the corners of curves that were drawn
@@ -50,9 +52,9 @@ pub struct CarveArgs {
     /// small share of the size of each feature
     #[arg(long, value_name = "T", value_parser = positive, allow_negative_numbers = true)]
     pub tolerance: Option<f64>,
-    /// Unit of the input, for gcode
-    #[arg(long, value_name = "UNIT", default_value = "mm")]
-    pub units: Units,
+    /// Unit of the input, for gcode; by default mm
+    #[arg(long, value_name = "UNIT")]
+    pub units: Option<Units>,
     /// Feed of cutting moves, in units a minute, for gcode
     #[arg(long, value_name = "F", value_parser = positive, allow_negative_numbers = true)]
     pub feed: Option<f64>,
@@ -83,8 +85,8 @@ pub enum Units {
 
 fn angle(word: &str) -> Result<f64, String> {
     match word.parse::<f64>() {
-        Ok(value) if value > 0.0 && value < 180.0 => Ok(value),
-        _ => Err("an angle between 0 and 180 degrees is needed".to_owned()),
+        Ok(value) if (0.01..=179.99).contains(&value) => Ok(value),
+        _ => Err("an angle from 0.01 to 179.99 degrees is needed".to_owned()),
     }
 }
 

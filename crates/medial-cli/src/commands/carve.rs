@@ -7,8 +7,8 @@ use crate::report::Entry;
 use crate::timings::timed;
 use medial::engine::interior;
 use medial::geom::Point;
-use medial::ops::{CarveOptions, Carving, Clearing, Move, Role, Sense, Tip, carve};
-use medial_io::gcode::{self, Machine, Unit};
+use medial::ops::{CarveOptions, Carving, Clearing, Move, Role, Sense, Tip, carve, carving_order};
+use medial_io::gcode::{self, GCodeError, Machine, Unit};
 use medial_io::record::{Record, Shape, Value};
 use medial_io::svg::{Options, ToolPath, write_tool_paths};
 use medial_io::{Format, domain_tolerance};
@@ -85,6 +85,11 @@ pub fn run(args: &CarveArgs) -> Result<Status, Failure> {
             let carving = timed(&mut stages.operations, || carve(domain, &axis, &asked))
                 .map_err(|error| Entry::refused("tool_path", error.to_string()))?;
             let tolerance = args.tolerance.unwrap_or_else(|| domain_tolerance(domain));
+            if let Some(machine) = &machine {
+                machine
+                    .check_path(&carving)
+                    .map_err(|error| Entry::refused("tool_path", error.to_string()))?;
+            }
             if matches!(format, Format::Svg | Format::GCode) {
                 let path = ToolPath { boundary: boundary(domain), carving };
                 return Ok(Found::Part(Part { path, tolerance }));
@@ -92,32 +97,47 @@ pub fn run(args: &CarveArgs) -> Result<Status, Failure> {
             Ok(timed(&mut stages.write, || Found::Records(records(&carving, tolerance))))
         },
         |parts, stages| {
-            let text = timed(&mut stages.write, || match machine {
+            timed(&mut stages.write, || match &machine {
                 Some(machine) => {
                     let path = |Part { path, tolerance }| (path.carving, tolerance);
                     let paths: Vec<(Carving, f64)> = parts.into_iter().map(path).collect();
-                    gcode::write(&paths, &machine, &name)
+                    let program = gcode::write(&paths, machine, &name).map_err(wrong)?;
+                    Ok(program.into_bytes())
                 }
                 None => {
-                    let paths: Vec<ToolPath> = parts.into_iter().map(|part| part.path).collect();
-                    write_tool_paths(&paths, &Options { title: name, ..Options::default() })
+                    let mut paths: Vec<ToolPath> =
+                        parts.into_iter().map(|part| part.path).collect();
+                    in_order(&mut paths);
+                    let options = Options { title: name, ..Options::default() };
+                    Ok(write_tool_paths(&paths, &options).into_bytes())
                 }
-            });
-            Ok(text.into_bytes())
+            })
         },
     )
+}
+
+/// Sorts tool paths as a machine takes them.
+fn in_order(paths: &mut Vec<ToolPath>) {
+    let order = carving_order(&paths.iter().map(|path| &path.carving).collect::<Vec<_>>());
+    let mut taken: Vec<Option<ToolPath>> = paths.drain(..).map(Some).collect();
+    paths.extend(order.into_iter().filter_map(|k| taken[k].take()));
+}
+
+fn wrong(error: GCodeError) -> Failure {
+    Failure::Usage(error.to_string())
 }
 
 /// The machine of a program, if one is written.
 fn machine(args: &CarveArgs, format: Format) -> Result<Option<Machine>, Failure> {
     let given = [
-        ("--feed", args.feed),
-        ("--plunge", args.plunge),
-        ("--safe-height", args.safe_height),
-        ("--spindle", args.spindle),
+        ("--units", args.units.is_some()),
+        ("--feed", args.feed.is_some()),
+        ("--plunge", args.plunge.is_some()),
+        ("--safe-height", args.safe_height.is_some()),
+        ("--spindle", args.spindle.is_some()),
     ];
     if format != Format::GCode {
-        return match given.iter().find(|(_, value)| value.is_some()) {
+        return match given.iter().find(|(_, is_given)| *is_given) {
             Some((name, _)) => {
                 Err(Failure::Usage(format!("{name} is for gcode; see --to in --help")))
             }
@@ -129,11 +149,13 @@ fn machine(args: &CarveArgs, format: Format) -> Result<Option<Machine>, Failure>
         return Err(Failure::Usage(why.to_owned()));
     };
     let unit = match args.units {
-        Units::Mm => Unit::Millimetre,
-        Units::Inch => Unit::Inch,
+        None | Some(Units::Mm) => Unit::Millimetre,
+        Some(Units::Inch) => Unit::Inch,
     };
     let plunge = args.plunge.unwrap_or(0.5 * feed);
-    Ok(Some(Machine { unit, feed, plunge, safe_height, spindle: args.spindle }))
+    let machine = Machine { unit, feed, plunge, safe_height, spindle: args.spindle };
+    machine.check().map_err(wrong)?;
+    Ok(Some(machine))
 }
 
 /// A record for each move of each pass.
@@ -141,8 +163,13 @@ fn records(carving: &Carving, tolerance: f64) -> Vec<Record> {
     let mut records = Vec::new();
     for (pass, steps) in (0_usize..).zip(&carving.passes) {
         for (step, (role, cut)) in (0_usize..).zip(carving.steps(steps)) {
-            let points = cut.polyline(tolerance).into_iter().map(|tip| (tip.point, tip.z));
-            let shape = Shape::LineInSpace(points.collect());
+            let (from, to) = (cut.from(), cut.to());
+            let shape = if from == to {
+                Shape::PointInSpace(from.point, from.z)
+            } else {
+                let points = cut.polyline(tolerance).into_iter().map(|tip| (tip.point, tip.z));
+                Shape::LineInSpace(points.collect())
+            };
             records.push(Record { values: values(pass, step, role, &cut), shape });
         }
     }

@@ -124,6 +124,9 @@ fn together(args: &ClearanceArgs, mut run: Run<'_>) -> Result<Status, Failure> {
         // Each is a valid shape by itself, or left out and reported.
         |feature, _, _, _| Ok(Found::Part((feature.index, feature.polygons.clone()))),
         |members, stages| {
+            if members.is_empty() {
+                return Ok(Vec::new());
+            }
             let mut places: Vec<(usize, u32)> = Vec::new();
             let mut polygons = Vec::new();
             for (index, members) in members {

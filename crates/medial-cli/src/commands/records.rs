@@ -125,12 +125,18 @@ impl Plan<'_> {
             |bytes| timed(&mut write, || sink.write(bytes)),
         )?;
         if status != Status::NoResult {
-            let drawn = if parts.is_empty() { Vec::new() } else { draw(parts, &mut run.stages)? };
+            // A picture is one without features as well.
+            let is_whole = matches!(format, Format::Svg | Format::GCode);
+            let drawn = if is_whole || !parts.is_empty() {
+                draw(parts, &mut run.stages)?
+            } else {
+                Vec::new()
+            };
             timed(&mut write, || {
-                // What is no whole of its own goes where records go.
-                if matches!(format, Format::Svg | Format::GCode) {
+                if is_whole {
                     return sink.finish(&drawn);
                 }
+                // What is no whole of its own goes where records go.
                 sink.write(&drawn)?;
                 sink.finish(&[])
             })?;

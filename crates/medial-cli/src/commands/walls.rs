@@ -31,7 +31,8 @@ pub fn run(args: &WallsArgs) -> Result<Status, Failure> {
         engine: args.engine,
     };
     let format = plan.format()?;
-    let asked = WallOptions { min: args.min, max: args.max, ends: args.ends.unwrap_or(args.max) };
+    let usual = WallOptions::between(args.min, args.max);
+    let asked = WallOptions { ends: args.ends.unwrap_or(usual.ends), ..usual };
     let input = run.open(&args.input)?;
     let picture = Options { title: title("Thin walls", &args.input), ..Options::default() };
     plan.run_and_draw(

@@ -1,4 +1,8 @@
 //! Pictures of tool paths, from above: moves coloured by depth, lifts between passes.
+//!
+//! A group that is not shown has each move in its exact form, one after another as they are made: the curve as
+//! seen from above, `data-pass`, and in `data-z` the heights of its control points, with the weight of the
+//! middle one if that is not 1.
 
 use super::Options;
 use super::canvas::{Anchor, Canvas, Data, number};
@@ -6,6 +10,7 @@ use super::frame::Frame;
 use super::layers::{self, INK};
 use super::legend::{self, QUIET, plural};
 use super::palette::{STEPS, color};
+use crate::number::shortest;
 use crate::text::escaped;
 use medial::geom::Point;
 use medial::ops::{Carving, Move, Role, Stroke};
@@ -21,6 +26,8 @@ pub struct ToolPath {
 
 /// Least width of a cut, in pixels.
 const WIDTH: f64 = 1.4;
+/// Parts of a move with a colour each, at most.
+const MOST_PARTS: f64 = 16.0;
 /// The colour of a flat floor.
 const FLOOR: &str = "#eceff1";
 
@@ -59,7 +66,34 @@ pub fn write_tool_paths(shapes: &[ToolPath], options: &Options) -> String {
         let counts = format!("{}, {}", plural(moves().count(), "move"), passes(n_passes));
         canvas.text(Point::new(right, y + 10.0), 12.0, Anchor::End, INK, &counts);
     }
+    exact(&mut canvas, shapes);
     canvas.finish(&escaped(&options.title))
+}
+
+/// Every move as it is, not shown.
+fn exact(canvas: &mut Canvas, shapes: &[ToolPath]) {
+    canvas.open("moves", "display=\"none\"");
+    for shape in shapes {
+        for (number, pass) in shape.carving.passes.iter().enumerate() {
+            for (_, cut) in shape.carving.steps(pass) {
+                let mut data = Data::new(&canvas.frame);
+                piece(&mut data, &cut, 0.0, 1.0);
+                let data = data.text;
+                let [from, to] = [cut.from(), cut.to()].map(|tip| shortest(tip.z));
+                let heights = match cut {
+                    Move::Line { .. } | Move::Arc { .. } => format!("{from} {to}"),
+                    Move::Quadratic { control, .. } => {
+                        format!("{from} {} {to}", shortest(control.z))
+                    }
+                    Move::Conic { control, weight, .. } => {
+                        format!("{from} {} {to} {}", shortest(control.z), shortest(weight))
+                    }
+                };
+                canvas.path(&data, &format!("data-pass=\"{number}\" data-z=\"{heights}\""));
+            }
+        }
+    }
+    canvas.close();
 }
 
 fn passes(n: usize) -> String {
@@ -104,7 +138,7 @@ fn by_depth<'m>(frame: &Frame, moves: impl Iterator<Item = &'m Move>, deepest: f
     let steps_of = |z: f64| if deepest > 0.0 { -z / deepest * STEPS as f64 } else { 0.0 };
     for cut in moves {
         let span = (steps_of(cut.to().z) - steps_of(cut.from().z)).abs();
-        let n = span.ceil().clamp(1.0, 2.0 * STEPS as f64);
+        let n = span.ceil().clamp(1.0, MOST_PARTS);
         for k in 0..n as u32 {
             let [u, v] = [k, k + 1].map(|k| f64::from(k) / n);
             let step = steps_of(cut.at(0.5 * (u + v)).z) as usize;
@@ -159,7 +193,13 @@ mod tests {
         };
         // One wall is an arc around the reflex corner; five corners go down to the floor.
         assert_eq!(group("cuts").matches('A').count(), 1);
-        assert!(group("cuts").matches("<path").count() >= STEPS);
+        assert!(group("cuts").matches("<path").count() > 10);
+        // All moves once more, with their heights.
+        assert_eq!(group("moves").matches("data-z=\"-4 -4\"").count(), 7);
+        assert!(
+            group("moves").contains("data-z=\"0 -4\"")
+                || group("moves").contains("data-z=\"-4 0\"")
+        );
         assert!(picture.contains("class=\"floor\"") && picture.contains(">depth<"));
         let full = carve(&domain, &axis, &CarveOptions::with_angle(90.0)).unwrap();
         let picture = write_tool_paths(&[ToolPath { carving: full, ..shape }], &Options::default());

@@ -30,7 +30,9 @@ mod walls;
 pub use branches::{
     Bend, BoundaryPiece, Branch, BranchPiece, Branches, Extent, Primitive, Trend, branches,
 };
-pub use carve::{CarveError, CarveOptions, Carving, Clearing, Move, Role, Tip, carve};
+pub use carve::{
+    CarveError, CarveOptions, Carving, Clearing, Move, Role, Tip, carve, carving_order,
+};
 pub use centerline::{
     Centerline, CenterlineError, CenterlineOptions, Extension, LineOptions, Route, Widths,
     centerlines, polylines,

@@ -183,7 +183,8 @@ pub(super) struct Limit<'r, 'a> {
     distance: f64,
     /// Whether what is just as far is taken to be farther.
     at_least: bool,
-    farther: Vec<bool>,
+    /// The order of the radius of each keypoint against the distance.
+    orders: Vec<Ordering>,
 }
 
 impl<'r, 'a> Limit<'r, 'a> {
@@ -199,9 +200,8 @@ impl<'r, 'a> Limit<'r, 'a> {
 
     fn new(radii: &'r Radii<'a>, distance: f64, at_least: bool) -> Self {
         let n = radii.axis.keypoints().len() as u32;
-        let mut limit = Self { radii, distance, at_least, farther: Vec::new() };
-        limit.farther = (0..n).map(|k| limit.is_over(radii.compare(k, distance))).collect();
-        limit
+        let orders = (0..n).map(|k| radii.compare(k, distance)).collect();
+        Self { radii, distance, at_least, orders }
     }
 
     fn is_over(&self, order: Ordering) -> bool {
@@ -214,7 +214,14 @@ impl<'r, 'a> Limit<'r, 'a> {
 
     /// Whether a keypoint is farther.
     pub fn is_farther(&self, keypoint: u32) -> bool {
-        self.farther[keypoint as usize]
+        self.is_over(self.orders[keypoint as usize])
+    }
+
+    /// Whether the radius is just the distance at the start of a path, and grows from there.
+    pub fn is_left_upwards(&self, path: &Path) -> bool {
+        self.orders[path.from as usize].is_eq()
+            && !self.radii.is_level(path)
+            && self.radii.rises(path)
     }
 
     /// Whether all of a path is farther.
@@ -240,6 +247,13 @@ impl<'r, 'a> Limit<'r, 'a> {
     pub fn falls(&self, number: u32, path: &Path) -> Option<(f64, Point)> {
         if !self.is_farther(path.from) || self.is_whole(number) {
             return None;
+        }
+        let keypoint = |k: u32| self.radii.axis.keypoints().at(k).position;
+        if self.orders[path.from as usize].is_eq() {
+            return Some((0.0, keypoint(path.from)));
+        }
+        if self.is_left_upwards(&path.reversed()) {
+            return Some((1.0, keypoint(path.to)));
         }
         let curve = self.radii.axis.curve(path);
         let u = falls_to(&curve, self.is_farther(path.to), self.distance);

@@ -3,16 +3,16 @@
 //! # Contract
 //! Lines run along the axis where its width is at least the one and at most the other limit, which is decided
 //! exactly; they end at its junctions, and where it gets wider or narrower. Drawn with a round pen as wide as
-//! the shape they fill it there. What leads into a corner, or to where the shape gets too narrow, and is
-//! short, is left out: a pen that wide has filled it already. A thin part of which nothing else would be left
-//! is one point. O(n).
+//! the shape they fill it there. What leads into a corner, or to where the shape gets too narrow, and reaches
+//! out of the pen that is left by little, is left out. A thin part of which nothing else would be left is one
+//! point. O(n).
 //!
 //! Slicers call this the medial axis of a shape, or its gap fill.
 //!
 //! # Method
 //! Along a path the radius is convex: what is no wider than a limit is one piece of it, what is no narrower
-//! two at most. Pieces that meet make a graph; loose short ends of it are taken away once, and what then
-//! meets in twos is joined.
+//! two at most. Pieces that meet make a graph; of it loose ends are taken away, up to the next place where not
+//! two pieces meet, and again what is loose then; and what meets in twos in the end is joined.
 
 use super::hierarchy::HierarchyError;
 use super::radii::{Limit, Radii};
@@ -27,15 +27,16 @@ pub struct WallOptions {
     pub min: f64,
     /// The greatest width.
     pub max: f64,
-    /// Loose ends shorter than this are left out.
+    /// Loose ends are left out that reach less than this out of a pen that stays, measured along the axis.
     pub ends: f64,
 }
 
 impl WallOptions {
-    /// Walls between two widths, without loose ends shorter than the greater one.
+    /// Walls between two widths, without loose ends that reach out by less than a quarter of the greater one:
+    /// right-angled corners do by a fifth of the width.
     #[must_use]
     pub const fn between(min: f64, max: f64) -> Self {
-        Self { min, max, ends: max }
+        Self { min, max, ends: 0.25 * max }
     }
 }
 
@@ -72,13 +73,14 @@ impl Wall {
         [least, greatest, mean].map(|radius| 2.0 * radius)
     }
 
-    /// Its points and the width at each, no farther than a tolerance from it in space, with the radius as
-    /// height.
+    /// Its points and the width at each, so that neither the line nor the width along it is farther than a
+    /// tolerance from what is drawn between them.
     #[must_use]
     pub fn polyline(&self, tolerance: f64) -> Vec<(Point, f64)> {
         let mut points: Vec<(Point, f64)> = Vec::new();
         for (k, curve) in self.curves.iter().enumerate() {
-            let drawn = curve.polyline_in_space(tolerance).into_iter();
+            // The width is twice the radius.
+            let drawn = curve.polyline_in_space(0.5 * tolerance).into_iter();
             points.extend(drawn.skip(usize::from(k > 0)).map(|(p, radius)| (p, 2.0 * radius)));
         }
         if self.length() == 0.0 {
@@ -206,23 +208,31 @@ impl Band {
                     [before.then_some([first, low]), after.then_some([high, last])]
                 }
             };
-            for [u, v] in parts.into_iter().flatten() {
-                let curve = curve.piece(u, v);
-                // A path may only touch a limit.
-                if curve.length() == 0.0 {
-                    continue;
-                }
-                let mut end = |at: f64, bound: f64, limit: f64, keypoint: u32| {
-                    if at == bound && !thin.is_farther(keypoint) && thick.is_farther(keypoint) {
+            let mut is_met = [false; 2];
+            for [u, v] in parts.into_iter().flatten().filter(|[u, v]| u < v) {
+                let mut end = |place: usize, at: f64, limit: f64, keypoint: u32| {
+                    let is_keypoint = at == [0.0, 1.0][place];
+                    if is_keypoint && !thin.is_farther(keypoint) && thick.is_farther(keypoint) {
+                        is_met[place] = true;
                         return keypoint;
                     }
                     kinds.push(if at == limit { Kind::Wide } else { Kind::Narrow });
                     kinds.len() as u32 - 1
                 };
                 // The limit of the greater width, if that is where it ends.
-                let from = end(u, 0.0, first, path.from);
-                let to = end(v, 1.0, last, path.to);
-                pieces.push(Piece { curve, nodes: [from, to] });
+                let from = end(0, u, first, path.from);
+                let to = end(1, v, last, path.to);
+                pieces.push(Piece { curve: curve.piece(u, v), nodes: [from, to] });
+            }
+            // Where nothing of a path goes on from a keypoint, it gets wider there or narrower.
+            for (path, is_met) in [path, path.reversed()].iter().zip(is_met) {
+                let is_within = !thin.is_farther(path.from) && thick.is_farther(path.from);
+                let kind = &mut kinds[path.from as usize];
+                if is_within && !is_met && thin.is_left_upwards(path) {
+                    *kind = Kind::Wide;
+                } else if is_within && !is_met && *kind == Kind::Keypoint {
+                    *kind = Kind::Narrow;
+                }
             }
         }
         let mut at = vec![Vec::new(); kinds.len()];
@@ -260,42 +270,59 @@ impl Band {
         chain.iter().map(|&(k, _)| self.pieces[k as usize].curve.length()).sum()
     }
 
-    /// Leaves out short chains with a loose end that is narrow; of a part of which nothing would be left, and
-    /// that does not go on anywhere wider, one point stays.
+    /// Half of the width at a node, by a piece there.
+    fn radius(&self, node: u32) -> f64 {
+        let piece = self.at[node as usize].first().map(|&k| &self.pieces[k as usize]);
+        piece.map_or(0.0, |piece| match piece.nodes[0] == node {
+            true => piece.curve.radius_from(),
+            false => piece.curve.radius_to(),
+        })
+    }
+
+    /// Leaves out chains with a loose end that reach out of the pen where they begin by less than `least`; of
+    /// a part of which nothing would be left, and that does not go on anywhere wider, one point stays.
     fn drop_ends(&mut self, least: f64) {
-        let mut dropped = Vec::new();
-        for start in 0..self.at.len() as u32 {
-            let [first] = self.at[start as usize][..] else { continue };
-            if self.kinds[start as usize] == Kind::Narrow {
-                let (chain, end) = self.chain(start, first);
-                if self.length(&chain) < least {
-                    dropped.push((chain, end));
+        let n = self.at.len();
+        // How far what was left out at each node reaches from it along the axis.
+        let mut reach: Vec<f64> = (0..n as u32).map(|node| self.radius(node)).collect();
+        let is_narrow = |node: &u32| self.kinds[*node as usize] == Kind::Narrow;
+        let mut open: Vec<u32> = (0..n as u32).filter(is_narrow).collect();
+        let mut is_point = vec![false; n];
+        while !open.is_empty() {
+            // All at once: else what is left at a junction would be one chain with what goes on there.
+            let loose = open.iter().filter_map(|&node| self.loose(node));
+            let is_short = |(start, end, chain): &(u32, u32, Chain)| {
+                reach[*start as usize] + self.length(chain) - self.radius(*end) < least
+            };
+            let dropped: Vec<(u32, u32, Chain)> = loose.filter(is_short).collect();
+            for (start, end, chain) in &dropped {
+                chain.iter().for_each(|&(k, _)| self.is_kept[k as usize] = false);
+                let whole = reach[*start as usize] + self.length(chain);
+                reach[*end as usize] = reach[*end as usize].max(whole);
+            }
+            open.clear();
+            for (start, end, chain) in dropped {
+                if self.kept_at(end).next().is_some() {
+                    open.push(end);
+                    continue;
                 }
-            }
-        }
-        for (chain, _) in &dropped {
-            // From both ends, perhaps.
-            chain.iter().for_each(|&(k, _)| self.is_kept[k as usize] = false);
-        }
-        let mut is_point = vec![false; self.at.len()];
-        for (chain, end) in dropped {
-            // A junction all of whose chains went, or both ends of one.
-            if self.kept_at(end).next().is_some() || self.kinds[end as usize] == Kind::Wide {
-                continue;
-            }
-            if !std::mem::replace(&mut is_point[end as usize], true) {
-                let start = self.nodes_of(&chain[0])[0];
-                if !std::mem::replace(&mut is_point[start as usize], true) {
+                let is_first = !std::mem::replace(&mut is_point[end as usize], true)
+                    && !std::mem::replace(&mut is_point[start as usize], true);
+                if is_first && self.kinds[end as usize] != Kind::Wide {
                     self.points.extend(self.widest(&chain));
                 }
             }
+            open.sort_unstable();
+            open.dedup();
         }
     }
 
-    /// The nodes from and to which a piece of a chain leads.
-    fn nodes_of(&self, &(k, back): &(u32, bool)) -> [u32; 2] {
-        let [from, to] = self.pieces[k as usize].nodes;
-        if back { [to, from] } else { [from, to] }
+    /// A node with a single piece, the end of the chain from there, and the chain.
+    fn loose(&self, node: u32) -> Option<(u32, u32, Chain)> {
+        let mut here = self.kept_at(node);
+        let (Some(first), None) = (here.next(), here.next()) else { return None };
+        let (chain, end) = self.chain(node, first);
+        Some((node, end, chain))
     }
 
     /// The widest of the points between the pieces of a chain and at its ends.

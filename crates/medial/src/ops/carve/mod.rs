@@ -54,12 +54,13 @@ impl CarveOptions {
     }
 }
 
-/// A tool that clears a flat floor; lengths are in units of the input.
+/// A tool that clears a flat floor, where it fits; lengths are in units of the input. Corners of the floor that
+/// are narrower than the tool stay.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Clearing {
     /// Its radius; 0 for the bit itself.
     pub radius: f64,
-    /// How far its rounds are apart.
+    /// How far its rounds are apart: its radius at most, so that nothing stays between them.
     pub step: f64,
 }
 
@@ -67,8 +68,8 @@ pub struct Clearing {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum CarveError {
-    /// A bit's point has an angle between 0 and 180 degrees.
-    #[error("{angle} is no angle of a bit; give one between 0 and 180 degrees")]
+    /// A bit's point has an angle between 0.01 and 179.99 degrees.
+    #[error("{angle} is no angle of a bit; give one from 0.01 to 179.99 degrees")]
     Angle {
         /// What was given.
         angle: f64,
@@ -84,6 +85,16 @@ pub enum CarveError {
     /// A floor is cleared below a limit of depth only.
     #[error("there is no floor to clear without a limit of depth")]
     NoFloor,
+    /// Rounds farther apart than the tool is wide on one side leave some of the floor.
+    #[error(
+        "rounds {step} apart leave gaps with a tool of radius {radius}; give its radius at most"
+    )]
+    Gaps {
+        /// What was given.
+        step: f64,
+        /// The radius of the tool.
+        radius: f64,
+    },
     /// So many rounds would never end.
     #[error("the step {step} is too small for a floor {reach} wide; give at least {least}")]
     Step {
@@ -143,12 +154,26 @@ pub struct Carving {
     pub slope: f64,
     /// The limit of depth.
     pub depth: Option<f64>,
+    /// The tool that clears the floor.
+    pub clearing: Option<Clearing>,
 }
 
 /// The least share of a floor's width that rounds may be apart.
 ///
 /// A mistyped step would fill the memory.
-const LEAST_STEP: f64 = 1e-4;
+const LEAST_STEP: f64 = 1e-3;
+
+/// The order of some tool paths in which each starts near the end of the one before.
+#[must_use]
+pub fn carving_order(paths: &[&Carving]) -> Vec<usize> {
+    let ends = |path: &&Carving| {
+        let first = path.passes.first().and_then(|pass| path.steps(pass).next());
+        let last = path.passes.last().and_then(|pass| path.steps(pass).last());
+        let first = first.map(|(_, cut)| cut.from().point).unwrap_or_default();
+        [first, last.map_or(first, |(_, cut)| cut.to().point)]
+    };
+    in_turn(&paths.iter().map(ends).collect::<Vec<_>>())
+}
 
 /// The tool path that carves a shape.
 ///
@@ -210,8 +235,11 @@ pub fn carve(
         floor: Outline { polygons: Vec::new() },
         slope,
         depth: options.depth,
+        clearing,
     };
-    let limit = options.depth.map(|depth| (depth, depth / slope));
+    // A limit far below the deepest place is none.
+    let bounds = |depth: &f64| *depth <= 2.0 * slope * axis.radius_max();
+    let limit = options.depth.filter(bounds).map(|depth| (depth, depth / slope));
     let at = |r: f64| match limit {
         // Where it meets the wall it is as deep to the last bit.
         Some((depth, radius)) if r == radius => depth,
@@ -237,6 +265,9 @@ pub fn carve(
     carving.drill(&points, radius);
     let mut distances = vec![radius];
     if let Some(Clearing { radius: tool, step }) = clearing {
+        if tool > 0.0 && step > tool {
+            return Err(CarveError::Gaps { step, radius: tool });
+        }
         let first = radius + if tool > 0.0 { tool } else { step };
         let reach = axis.radius_max() - radius;
         if step < LEAST_STEP * reach {
@@ -245,7 +276,10 @@ pub fn carve(
         let rounds = (0..).map(|k| first + f64::from(k) * step);
         distances.extend(rounds.take_while(|&distance| distance < axis.radius_max()));
     }
-    let mut outlines = offsets(domain, axis, &distances)?;
+    let mut outlines = offsets(domain, axis, &distances).map_err(|error| match error {
+        OffsetError::Distance { .. } => CarveError::Length { name: "depth", value: depth },
+        error => error.into(),
+    })?;
     let rounds = outlines.split_off(1);
     carving.floor = outlines.swap_remove(0);
     let contours = |outline: &Outline| -> Vec<Vec<Move>> {
@@ -287,12 +321,20 @@ fn valleys(
 
 /// The cotangent of half an angle in degrees; 1 at 90.
 fn slope(angle: f64) -> Result<f64, CarveError> {
-    if !(angle > 0.0 && angle < 180.0) {
+    /// A bit sharper, or blunter by as much, than this in degrees is none.
+    const LEAST: f64 = 0.01;
+    if !(LEAST..=180.0 - LEAST).contains(&angle) {
         return Err(CarveError::Angle { angle });
     }
-    let tan = (45.0 - 0.5 * angle).to_radians().tan();
-    let slope = (1.0 + tan) / (1.0 - tan);
-    if slope.is_finite() && slope > 0.0 { Ok(slope) } else { Err(CarveError::Angle { angle }) }
+    let half = 0.5 * angle;
+    let slope = if half < 45.0 {
+        1.0 / half.to_radians().tan()
+    } else if half > 45.0 {
+        (90.0 - half).to_radians().tan()
+    } else {
+        1.0
+    };
+    Ok(slope)
 }
 
 impl Carving {
@@ -324,7 +366,7 @@ impl Carving {
         }
     }
 
-    /// What is cut away, the floor cleared, in cubes of the unit of the input. It is added up from the moves
+    /// What is cut away, all of the floor taken to be cleared, in cubes of the unit of the input. It is added up from the moves
     /// alone. If nothing is left it is the volume under the least of the distance from the boundary and the
     /// limit, times the slope.
     #[must_use]

@@ -61,11 +61,14 @@ pub enum Move {
     },
 }
 
-/// Most halvings of a move that is drawn or measured.
-const MOST_HALVINGS: u32 = 24;
+/// Most halvings of a conic that is drawn.
+const MOST_HALVINGS: u32 = 16;
 
-/// Most pieces that a quadratic or an arc is drawn with.
+/// Most pieces that a move is drawn with; only for drawing.
 const MAX_PIECES: f64 = 65_536.0;
+
+/// Roundings of the coordinates below which a conic is not drawn any finer: points would fall together.
+const ROUNDINGS: f64 = 8.0;
 
 impl Move {
     /// What a bit does along a curve of the axis, so much deeper than the boundary is away; `depth` gives the
@@ -210,7 +213,10 @@ impl Move {
             }
             Self::Conic { .. } => {
                 let mut tips = vec![self.from()];
-                self.halve(tolerance, MOST_HALVINGS, &mut tips);
+                let size = [self.from(), self.to()]
+                    .map(|tip| tip.point.x.abs().max(tip.point.y.abs()).max(tip.z.abs()));
+                let rounding = ROUNDINGS * f64::EPSILON * size[0].max(size[1]);
+                self.halve(tolerance.max(rounding), MOST_HALVINGS, &mut tips);
                 return tips;
             }
             Self::Arc { radius, angle, .. } => {
@@ -314,23 +320,29 @@ const GAUSS: [(f64, f64); 4] = [
 
 /// The integral of a smooth function from 0 to 1, halved until it is as good as doubles are.
 fn integral(f: impl Fn(f64) -> f64) -> f64 {
-    /// Share of the whole by which halves may differ from it.
-    const ENOUGH: f64 = 1e-14;
+    /// Share of the whole by which the halves of a part may differ from it.
+    const ENOUGH: f64 = 1e-15;
+    /// Most parts.
+    const MOST: u32 = 4096;
     let gauss = |a: f64, b: f64| {
         let (middle, half) = (0.5 * (a + b), 0.5 * (b - a));
         let pair = |&(x, w): &(f64, f64)| w * (f(middle - half * x) + f(middle + half * x));
         half * GAUSS.iter().map(pair).sum::<f64>()
     };
     let whole = gauss(0.0, 1.0);
-    let (mut sum, mut open) = (0.0_f64, vec![(0.0, 1.0, whole, MOST_HALVINGS)]);
-    while let Some((a, b, whole, left)) = open.pop() {
+    let (mut sum, mut size, mut parts) = (0.0, whole.abs(), 1);
+    let mut open = vec![(0.0, 1.0, whole)];
+    while let Some((a, b, whole)) = open.pop() {
         let middle = 0.5 * (a + b);
         let halves = [gauss(a, middle), gauss(middle, b)];
         let both = halves[0] + halves[1];
-        if left == 0 || (both - whole).abs() <= ENOUGH * (both.abs() + sum.abs()) {
+        size = both.abs().max(size);
+        let is_good = (both - whole).abs() <= ENOUGH * size;
+        if is_good || both.is_nan() || parts >= MOST || middle <= a || b <= middle {
             sum += both;
         } else {
-            open.extend([(middle, b, halves[1], left - 1), (a, middle, halves[0], left - 1)]);
+            parts += 1;
+            open.extend([(middle, b, halves[1]), (a, middle, halves[0])]);
         }
     }
     sum
@@ -397,6 +409,25 @@ mod tests {
                 for k in 0..500 {
                     assert!(away(cut.at(f64::from(k) / 500.0)) <= tolerance * 1.0001);
                 }
+            }
+        }
+    }
+
+    #[test]
+    fn no_tolerance_makes_endless_polylines() {
+        // Far out, where a rounding is larger than the tolerance; and so deep that it is.
+        let p = |x: f64, y: f64| Point::new(x, y);
+        for (far, slope) in [(1e9, 1.0), (-3e15, 1.0), (0.0, 1e300), (5e5, 1e-300)] {
+            let corners = [p(far, far + 3.0), p(far, far - 3.0)].map(Site::vertex);
+            let ends = [(p(far - 4.0, far), 5.0), (p(far + 4.0, far), 5.0)];
+            let curve = Curve::new(&corners[0], &corners[1], ends[0], ends[1]);
+            let cut = Move::along(&curve, |r| slope * r);
+            for tolerance in [1e-3, 1e-10, 1e-300] {
+                assert!(cut.polyline(tolerance).len() <= 65_537, "{far} {slope} {tolerance}");
+            }
+            if slope == 1.0 {
+                assert!((cut.length() - curve.length()).abs() < 0.3 * curve.length());
+                assert!(cut.swept(slope).0 > 0.0);
             }
         }
     }

@@ -69,10 +69,10 @@ pub(super) fn in_turn(ends: &[[Point; 2]]) -> Vec<usize> {
 
 /// The numbers of the places where moves start and end, and the places.
 pub(super) fn places<'m>(moves: impl Iterator<Item = &'m Move>) -> (Vec<[u32; 2]>, Vec<Tip>) {
-    let mut numbers: HashMap<[u64; 2], u32> = HashMap::new();
+    let mut numbers: HashMap<[u64; 3], u32> = HashMap::new();
     let mut places = Vec::new();
     let mut number = |tip: Tip| {
-        let bits = [tip.point.x, tip.point.y].map(|v| (v + 0.0).to_bits());
+        let bits = [tip.point.x, tip.point.y, tip.z].map(|v| (v + 0.0).to_bits());
         *numbers.entry(bits).or_insert_with(|| {
             places.push(tip);
             places.len() as u32 - 1
@@ -303,7 +303,7 @@ mod tests {
                 if back { step.reversed() } else { step }
             };
             for pair in trail.windows(2) {
-                assert_eq!(turned(&pair[0]).to().point, turned(&pair[1]).from().point);
+                assert_eq!(turned(&pair[0]).to(), turned(&pair[1]).from());
             }
             for &(k, _) in trail {
                 times[k as usize] += 1;
