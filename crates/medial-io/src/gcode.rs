@@ -175,9 +175,8 @@ pub fn write(
     program.line(&format!("({comment})"));
     program.line(&format!("{unit} G90 G94 G17 G40"));
     program.start();
-    let clears = |pass: &Vec<(u32, bool)>, path: &Carving| by_other_tool(path, pass);
     program.passes(&paths, false);
-    if paths.iter().any(|(path, _)| path.passes.iter().any(|pass| clears(pass, path))) {
+    if paths.iter().any(|(path, _)| path.passes.iter().any(|pass| by_other_tool(path, pass))) {
         program.stop();
         program.line("M0 (fit the tool that clears the floor)");
         program.start();

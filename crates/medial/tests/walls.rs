@@ -5,7 +5,7 @@ mod support;
 use medial::domain::{self, Domain};
 use medial::engine::path_tracing;
 use medial::geom::Point;
-use medial::ops::{Wall, WallError, WallOptions, thin_walls};
+use medial::ops::{Wall, WallError, WallOptions, Widths, thin_walls};
 use support::random::{self, Family, Ground, Random};
 use support::shapes;
 
@@ -30,14 +30,16 @@ fn a_bar_is_a_wall_from_disk_to_disk_if_its_width_is_within_the_limits() {
         let found = between(&bar, min, max);
         assert_eq!(found.len(), 1, "{min} {max}");
         assert_eq!(ends(&found[0]), [(Point::new(0.5, 0.5), 1.0), (Point::new(8.5, 0.5), 1.0)]);
-        assert_eq!((found[0].length(), found[0].widths()), (8.0, [1.0; 3]));
+        let even = Widths { least: 1.0, greatest: 1.0, mean: 1.0 };
+        assert_eq!((found[0].length(), found[0].widths()), (8.0, even));
     }
     assert_eq!(between(&bar, 1.0_f64.next_up(), 2.0), []);
     assert_eq!(between(&bar, 0.5, 1.0_f64.next_down()), []);
     // The corners are there if they are asked for.
     let all = walls(&bar, &WallOptions { min: 0.0, max: 1.0, ends: 0.0 });
     assert_eq!(all.len(), 5);
-    assert_eq!(all[0].widths()[..2], [0.0, 1.0]);
+    let Widths { least, greatest, .. } = all[0].widths();
+    assert_eq!([least, greatest], [0.0, 1.0]);
 }
 
 #[test]
@@ -157,7 +159,7 @@ fn with_all_ends_they_are_all_of_the_axis_between_the_widths() {
         let size: f64 = axis.paths().iter().map(|p| axis.curve(&p).length()).sum();
         assert!((sum - by_pieces).abs() < 0.02 * size, "{sum} {by_pieces} {size}");
         for wall in &found {
-            let [least, greatest, _] = wall.widths();
+            let Widths { least, greatest, .. } = wall.widths();
             assert!(least >= min * (1.0 - 1e-9) && greatest <= max * (1.0 + 1e-9));
             for pair in wall.curves.windows(2) {
                 assert_eq!(pair[0].to(), pair[1].from());

@@ -60,14 +60,7 @@ pub fn run(args: &ClearanceArgs) -> Result<Status, Failure> {
 
 /// Writes necks, or the largest disks.
 fn places(args: &ClearanceArgs, mut run: Run<'_>) -> Result<Status, Failure> {
-    let plan = Plan {
-        target: &args.target,
-        thing: if args.largest { "disks" } else { "necks" },
-        formats: LINES,
-        columns: COLUMNS,
-        engine: args.engine,
-    };
-    check_format(&plan)?;
+    let plan = plan_of_places(args)?;
     let input = run.open_with(&args.input, Documents::AsPolygons)?;
     plan.run(run, &input, |feature, domain, stages, options| {
         let place = |polygon: u32| (feature.index, polygon);
@@ -75,12 +68,19 @@ fn places(args: &ClearanceArgs, mut run: Run<'_>) -> Result<Status, Failure> {
     })
 }
 
-/// Fails if a picture of places is asked for.
-fn check_format(plan: &Plan<'_>) -> Result<(), Failure> {
+/// How places are written; fails if a picture of them is asked for.
+fn plan_of_places(args: &ClearanceArgs) -> Result<Plan<'_>, Failure> {
+    let plan = Plan {
+        target: &args.target,
+        thing: if args.largest { "disks" } else { "necks" },
+        formats: LINES,
+        columns: COLUMNS,
+        engine: args.engine,
+    };
     if plan.asked()? == Format::Svg {
         return Err(Failure::Usage("svg is the plot of --profile; see --to in --help".to_owned()));
     }
-    Ok(())
+    Ok(plan)
 }
 
 /// The feature of a polygon of a domain, and the number of the polygon in it.
@@ -106,14 +106,7 @@ fn all_places(
 
 /// Writes necks, or the largest disks, of all features as one shape.
 fn together(args: &ClearanceArgs, mut run: Run<'_>) -> Result<Status, Failure> {
-    let plan = Plan {
-        target: &args.target,
-        thing: if args.largest { "disks" } else { "necks" },
-        formats: LINES,
-        columns: COLUMNS,
-        engine: args.engine,
-    };
-    check_format(&plan)?;
+    let plan = plan_of_places(args)?;
     let format = plan.format()?;
     let input = run.open_with(&args.input, Documents::AsPolygons)?;
     let options = engine::Options { threads: run.all_threads(), ..engine::Options::default() };

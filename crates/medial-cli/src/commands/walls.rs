@@ -6,7 +6,7 @@ use crate::failure::{Failure, Status};
 use crate::report::Entry;
 use crate::timings::timed;
 use medial::engine::interior;
-use medial::ops::{Wall, WallOptions, thin_walls};
+use medial::ops::{Wall, WallOptions, Widths, thin_walls};
 use medial_io::record::{Record, Shape};
 use medial_io::svg::{Options, ThinWalls, write_walls};
 use medial_io::{Format, domain_tolerance};
@@ -57,7 +57,7 @@ pub fn run(args: &WallsArgs) -> Result<Status, Failure> {
 }
 
 fn record(wall: &Wall, tolerance: f64) -> Record {
-    let [least, greatest, mean] = wall.widths();
+    let Widths { least, greatest, mean } = wall.widths();
     let mut values = vec![wall.length().into()];
     values.extend([least, greatest, mean].map(Into::into));
     values.push(wall.is_closed().into());

@@ -260,6 +260,12 @@ impl<'r, 'a> Limit<'r, 'a> {
         Some((u, curve.point_at(u)))
     }
 
+    /// Where a path comes down to the distance first from its start, and from its end.
+    fn cuts(&self, number: u32, path: &Path) -> [Option<(f64, Point)>; 2] {
+        let back = self.falls(number, &path.reversed());
+        [self.falls(number, path), back.map(|(u, point)| (1.0 - u, point))]
+    }
+
     /// What of a part of a path, between two parameters, is not farther; none if all is. Its ends are those
     /// of the part, or the points of [`Limit::falls`] with the distance as radius.
     pub fn rest(&self, number: u32, part: [f64; 2]) -> Option<Curve> {
@@ -268,9 +274,9 @@ impl<'r, 'a> Limit<'r, 'a> {
         }
         let path = self.radii.axis.paths().at(number);
         let curve = self.radii.axis.curve(&path);
-        let from = self.falls(number, &path).filter(|cut| cut.0 >= part[0]);
-        let back = self.falls(number, &path.reversed()).map(|(u, point)| (1.0 - u, point));
-        let to = back.filter(|cut| cut.0 <= part[1]);
+        let [from, to] = self.cuts(number, &path);
+        let from = from.filter(|cut| cut.0 >= part[0]);
+        let to = to.filter(|cut| cut.0 <= part[1]);
         let [first, last] = [from.map_or(part[0], |cut| cut.0), to.map_or(part[1], |cut| cut.0)];
         // From the other end it may be farther all along the part.
         if first > last {
@@ -290,9 +296,8 @@ impl<'r, 'a> Limit<'r, 'a> {
         if self.is_whole(number) {
             return None;
         }
-        let path = self.radii.axis.paths().at(number);
-        let first = self.falls(number, &path).map_or(0.0, |cut| cut.0);
-        let last = self.falls(number, &path.reversed()).map_or(1.0, |cut| 1.0 - cut.0);
+        let [from, to] = self.cuts(number, &self.radii.axis.paths().at(number));
+        let [first, last] = [from.map_or(0.0, |cut| cut.0), to.map_or(1.0, |cut| cut.0)];
         Some([first, last.max(first)])
     }
 }

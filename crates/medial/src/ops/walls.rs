@@ -14,6 +14,8 @@
 //! two at most. Pieces that meet make a graph; of it loose ends are taken away, up to the next place where not
 //! two pieces meet, and again what is loose then; and what meets in twos in the end is joined.
 
+use super::centerline::Widths;
+use super::groups::Groups;
 use super::hierarchy::HierarchyError;
 use super::radii::{Limit, Radii};
 use crate::axis::{Curve, KeypointKind, MedialAxis};
@@ -62,15 +64,10 @@ impl Wall {
         self.length() > 0.0 && ends.is_some_and(|(from, to)| from == to)
     }
 
-    /// The least, the greatest and the mean width along it.
+    /// The widths along it.
     #[must_use]
-    pub fn widths(&self) -> [f64; 3] {
-        let least = self.curves.iter().map(Curve::radius_min).fold(f64::INFINITY, f64::min);
-        let greatest = self.curves.iter().map(Curve::radius_max).fold(0.0, f64::max);
-        let sum: f64 = self.curves.iter().map(|curve| curve.length() * curve.radius_mean()).sum();
-        let length = self.length();
-        let mean = if length > 0.0 { (sum / length).clamp(least, greatest) } else { greatest };
-        [least, greatest, mean].map(|radius| 2.0 * radius)
+    pub fn widths(&self) -> Widths {
+        Widths::along(&self.curves)
     }
 
     /// Its points and the width at each, so that neither the line nor the width along it is farther than a
@@ -176,7 +173,7 @@ struct Band {
     pieces: Vec<Piece>,
     kinds: Vec<Kind>,
     /// Pieces at each node; a piece from a node to itself is there twice.
-    at: Vec<Vec<u32>>,
+    at: Groups,
     /// What is not left out.
     is_kept: Vec<bool>,
     /// Nodes that stand for a part of which all else was left out.
@@ -196,7 +193,7 @@ impl Band {
             _ => Kind::Keypoint,
         };
         let mut kinds: Vec<Kind> = (0..axis.keypoints().len() as u32).map(kind).collect();
-        let mut pieces = Vec::new();
+        let mut pieces: Vec<Piece> = Vec::new();
         for (number, path) in (0..).zip(axis.paths()) {
             let Some([first, last]) = thin.within(number) else { continue };
             let curve = axis.curve(&path);
@@ -235,16 +232,14 @@ impl Band {
                 }
             }
         }
-        let mut at = vec![Vec::new(); kinds.len()];
-        for (k, piece) in (0_u32..).zip(&pieces) {
-            piece.nodes.iter().for_each(|&node| at[node as usize].push(k));
-        }
+        let ends = || (0..).zip(&pieces).flat_map(|(k, piece)| piece.nodes.map(|node| (node, k)));
+        let at = Groups::new(kinds.len(), ends);
         let is_kept = vec![true; pieces.len()];
         Self { pieces, kinds, at, is_kept, points: Vec::new() }
     }
 
     fn kept_at(&self, node: u32) -> impl Iterator<Item = u32> + '_ {
-        self.at[node as usize].iter().copied().filter(|&k| self.is_kept[k as usize])
+        self.at.of(node).iter().copied().filter(|&k| self.is_kept[k as usize])
     }
 
     /// The pieces from a node on, up to the next one at which not two meet.
@@ -272,7 +267,7 @@ impl Band {
 
     /// Half of the width at a node, by a piece there.
     fn radius(&self, node: u32) -> f64 {
-        let piece = self.at[node as usize].first().map(|&k| &self.pieces[k as usize]);
+        let piece = self.at.of(node).first().map(|&k| &self.pieces[k as usize]);
         piece.map_or(0.0, |piece| match piece.nodes[0] == node {
             true => piece.curve.radius_from(),
             false => piece.curve.radius_to(),
@@ -282,7 +277,7 @@ impl Band {
     /// Leaves out chains with a loose end that reach out of the pen where they begin by less than `least`; of
     /// a part of which nothing would be left, and that does not go on anywhere wider, one point stays.
     fn drop_ends(&mut self, least: f64) {
-        let n = self.at.len();
+        let n = self.kinds.len();
         // How far what was left out at each node reaches from it along the axis.
         let mut reach: Vec<f64> = (0..n as u32).map(|node| self.radius(node)).collect();
         let is_narrow = |node: &u32| self.kinds[*node as usize] == Kind::Narrow;
@@ -352,7 +347,7 @@ impl Band {
             walls.push(Wall { curves });
         };
         let is_joint = |node: u32| self.kept_at(node).count() == 2;
-        for node in (0..self.at.len() as u32).filter(|&node| !is_joint(node)) {
+        for node in (0..self.kinds.len() as u32).filter(|&node| !is_joint(node)) {
             for first in self.kept_at(node) {
                 take(self.chain(node, first).0, &mut walls);
             }

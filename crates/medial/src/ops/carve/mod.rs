@@ -327,14 +327,13 @@ fn slope(angle: f64) -> Result<f64, CarveError> {
         return Err(CarveError::Angle { angle });
     }
     let half = 0.5 * angle;
-    let slope = if half < 45.0 {
+    Ok(if half < 45.0 {
         1.0 / half.to_radians().tan()
     } else if half > 45.0 {
         (90.0 - half).to_radians().tan()
     } else {
         1.0
-    };
-    Ok(slope)
+    })
 }
 
 impl Carving {
@@ -366,8 +365,8 @@ impl Carving {
         }
     }
 
-    /// What is cut away, all of the floor taken to be cleared, in cubes of the unit of the input. It is added up from the moves
-    /// alone. If nothing is left it is the volume under the least of the distance from the boundary and the
+    /// What is cut away, all of the floor taken to be cleared, in cubes of the unit of the input. It is
+    /// added up from the moves alone. If nothing is left it is the volume under the least of the distance from the boundary and the
     /// limit, times the slope.
     #[must_use]
     pub fn volume(&self) -> f64 {

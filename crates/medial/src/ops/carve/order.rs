@@ -13,6 +13,7 @@ use std::collections::HashMap;
 
 use super::moves::{Move, Tip};
 use crate::geom::{Point, Rect, hilbert};
+use crate::ops::groups::Groups;
 
 /// A move and whether it runs from its end to its start.
 pub(super) type Turned = (u32, bool);
@@ -22,16 +23,16 @@ struct Graph {
     ends: Vec<[u32; 2]>,
     lengths: Vec<f64>,
     /// Moves at each node.
-    at: Vec<Vec<u32>>,
+    at: Groups,
     places: Vec<Tip>,
 }
 
 /// Trails over some moves, each of them taken once at least, in the order in which they are to be cut.
 pub(super) fn trails(moves: &[Move], lift: f64) -> Vec<Vec<Turned>> {
     let graph = Graph::new(moves);
-    let mut is_met = vec![false; graph.at.len()];
+    let mut is_met = vec![false; graph.places.len()];
     let mut tours = Vec::new();
-    for root in 0..graph.at.len() as u32 {
+    for root in 0..graph.places.len() as u32 {
         if !is_met[root as usize] {
             let tree = Tree::new(&graph, root, &mut is_met);
             tours.push(tour(&graph, &tree, lift));
@@ -85,13 +86,12 @@ pub(super) fn places<'m>(moves: impl Iterator<Item = &'m Move>) -> (Vec<[u32; 2]
 impl Graph {
     fn new(moves: &[Move]) -> Self {
         let (ends, places) = places(moves.iter());
-        let mut at = vec![Vec::new(); places.len()];
-        for (k, &[from, to]) in (0..).zip(&ends) {
-            at[from as usize].push(k);
-            if from != to {
-                at[to as usize].push(k);
-            }
-        }
+        let at = || {
+            (0..).zip(&ends).flat_map(|(k, &[from, to])| {
+                [Some((from, k)), (from != to).then_some((to, k))].into_iter().flatten()
+            })
+        };
+        let at = Groups::new(places.len(), at);
         Self { ends, lengths: moves.iter().map(Move::length).collect(), at, places }
     }
 
@@ -117,7 +117,7 @@ impl Tree {
             }
             let place = nodes.len() as u32;
             nodes.push((node, above));
-            for &edge in graph.at[node as usize].iter().rev() {
+            for &edge in graph.at.of(node).iter().rev() {
                 let to = graph.other(edge, node);
                 if !is_met[to as usize] {
                     open.push((to, Some((place, edge))));
@@ -144,15 +144,8 @@ struct Choice {
 /// The moves to go over once more, and the nodes where trails begin or end.
 fn doubled(graph: &Graph, tree: &Tree, lift: f64) -> (Vec<u32>, Vec<u32>) {
     let n = tree.nodes.len();
-    let children = {
-        let mut children = vec![Vec::new(); n];
-        for (k, (_, above)) in (0_u32..).zip(&tree.nodes) {
-            if let Some((place, _)) = above {
-                children[*place as usize].push(k);
-            }
-        }
-        children
-    };
+    let above = || (0..).zip(&tree.nodes).filter_map(|(k, (_, above))| Some(((*above)?.0, k)));
+    let children = Groups::new(n, above);
     let mut costs = vec![NEVER; n];
     let mut choices = vec![[[Choice::default(); 3]; 2]; n];
     // What of itself each child adds to the state of those before it and itself.
@@ -161,7 +154,7 @@ fn doubled(graph: &Graph, tree: &Tree, lift: f64) -> (Vec<u32>, Vec<u32>) {
         let (node, above) = tree.nodes[place];
         let mut sum = NEVER;
         sum[0][0] = 0.0;
-        for &child in &children[place] {
+        for &child in children.of(place as u32) {
             let (before, mut next) = (sum, NEVER);
             for (odd, free) in states() {
                 for (twice, used) in states().filter(|&(_, used)| used <= free) {
@@ -175,9 +168,8 @@ fn doubled(graph: &Graph, tree: &Tree, lift: f64) -> (Vec<u32>, Vec<u32>) {
             }
             sum = next;
         }
-        let loops =
-            graph.at[node as usize].iter().filter(|&&e| graph.other(e, node) == node).count();
-        let is_odd = (graph.at[node as usize].len() + loops) % 2;
+        let loops = graph.at.of(node).iter().filter(|&&e| graph.other(e, node) == node).count();
+        let is_odd = (graph.at.of(node).len() + loops) % 2;
         let length = above.map_or(0.0, |(_, edge)| graph.lengths[edge as usize]);
         for (twice, free) in states() {
             let mut options = vec![([is_odd ^ twice, free], false, 0.0)];
@@ -209,7 +201,7 @@ fn doubled(graph: &Graph, tree: &Tree, lift: f64) -> (Vec<u32>, Vec<u32>) {
             left.push(node);
         }
         let [mut odd, mut free] = choice.below.map(usize::from);
-        for &child in children[place].iter().rev() {
+        for &child in children.of(place as u32).iter().rev() {
             let share = shares[child as usize][odd][free];
             state[child as usize] = share;
             odd ^= usize::from(share[0]);
@@ -231,7 +223,7 @@ fn tour(graph: &Graph, tree: &Tree, lift: f64) -> Vec<Vec<Turned>> {
         (0..).zip(&tree.nodes).map(|(k, &(node, _))| (node, k)).collect();
     let mut edges: Vec<([u32; 2], Option<u32>)> = Vec::new();
     for &(node, _) in &tree.nodes {
-        let first = graph.at[node as usize].iter().filter(|&&e| graph.ends[e as usize][0] == node);
+        let first = graph.at.of(node).iter().filter(|&&e| graph.ends[e as usize][0] == node);
         edges.extend(first.map(|&e| (graph.ends[e as usize], Some(e))));
     }
     edges.extend(again.iter().map(|&e| (graph.ends[e as usize], Some(e))));

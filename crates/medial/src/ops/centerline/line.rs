@@ -61,14 +61,21 @@ impl Centerline {
     /// The widths inside the axis.
     #[must_use]
     pub fn widths(&self) -> Widths {
-        let least = self.curves.iter().map(Curve::radius_min).fold(f64::INFINITY, f64::min);
-        let greatest = self.curves.iter().map(Curve::radius_max).fold(0.0, f64::max);
+        Widths::along(&self.curves)
+    }
+}
+
+impl Widths {
+    /// Those along some curves.
+    pub(in crate::ops) fn along(curves: &[Curve]) -> Self {
+        let least = curves.iter().map(Curve::radius_min).fold(f64::INFINITY, f64::min);
+        let greatest = curves.iter().map(Curve::radius_max).fold(0.0, f64::max);
         let (mut sum, mut length) = (0.0, 0.0);
-        for curve in &self.curves {
+        for curve in curves {
             sum += curve.length() * curve.radius_mean();
             length += curve.length();
         }
         let mean = if length > 0.0 { (sum / length).clamp(least, greatest) } else { greatest };
-        Widths { least: 2.0 * least, greatest: 2.0 * greatest, mean: 2.0 * mean }
+        Self { least: 2.0 * least, greatest: 2.0 * greatest, mean: 2.0 * mean }
     }
 }
