@@ -66,6 +66,7 @@ OPERATIONS = """What operations take, on the axis that *engine* made: without re
 FILES = """Whole layers, each feature a domain of its own; columns as for the shapes, *as given* is medial on the coordinates of the file.
 All others get whole numbers: each feature enlarged by a power of two, and shifted, to fill 31 bits, and rounded.
 Features that bound no domain are left out, and so are those where, after rounding, edges meet elsewhere than at ends, which Boost cannot take.
+*divide_and_conquer* counts validation too; the last line has the sums of all files.
 
 """
 

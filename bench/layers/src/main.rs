@@ -57,7 +57,7 @@ fn format(file: &str, bytes: &[u8]) -> Result<Format, Error> {
         Ok(format) if format != Format::Json => Ok(format),
         _ => match Format::of_content(bytes)? {
             Content::Polygons(format) => Ok(format),
-            Content::Axes => Err("an axis document".into()),
+            Content::Axes | Content::CompressedAxes => Err("axes".into()),
         },
     }
 }

@@ -1,4 +1,5 @@
 use crate::{Error, FeatureError};
+use medial::domain::{Curves, FillRule};
 use medial::geom::Point;
 use serde_json::value::RawValue;
 
@@ -24,6 +25,10 @@ pub struct Feature {
     pub geometry: String,
     /// Whether the geometry is polygonal, be it an empty one.
     pub polygonal: bool,
+    /// Which points its rings enclose.
+    pub fill: FillRule,
+    /// The curves that its edges were flattened from, if there were any.
+    pub curves: Option<Curves>,
     /// What was left out or reinterpreted on the way.
     pub notes: Vec<Note>,
 }

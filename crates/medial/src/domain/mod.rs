@@ -12,6 +12,7 @@ mod assemble;
 mod build;
 mod complement;
 mod components;
+mod curves;
 mod error;
 #[cfg(feature = "geo-types")]
 mod geo;
@@ -34,6 +35,7 @@ mod walks;
 
 pub use build::Options;
 pub use complement::Complement;
+pub use curves::{Curves, FillRule, Piece, PieceEnd};
 pub use error::{DomainError, NestingFault, Place};
 pub use horizon::Horizon;
 pub use origins::{CornerOrigin, Origin};
