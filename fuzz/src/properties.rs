@@ -15,7 +15,9 @@ use super::{Polygons, Ring, Shape, to_wkt};
 /// What is wrong, with the polygons as WKT.
 pub fn check_domain(polygons: &Polygons) -> Result<bool, String> {
     let fault = |text: String| Err(format!("{text}\n{}", to_wkt(polygons)));
-    let build = |strict, regroup| Domain::from_polygons(polygons, &Options { strict, regroup });
+    let build = |strict, regroup| {
+        Domain::from_polygons(polygons, &Options { strict, regroup, ..Options::default() })
+    };
     let [default, strict, regrouped, both] =
         [build(false, false), build(true, false), build(false, true), build(true, true)];
     for (name, result) in
@@ -145,7 +147,7 @@ fn domain_faults(domain: &Domain, polygons: &Polygons) -> Option<String> {
 
 /// Validates the walks of a domain as polygons.
 fn again(domain: &Domain) -> Option<String> {
-    let options = Options { strict: false, regroup: true };
+    let options = Options { regroup: true, ..Options::default() };
     match Domain::from_polygons(&per_polygon(domain), &options) {
         Err(error) => Some(format!("its walks are refused: {error}")),
         Ok(other) if cycles(domain) != cycles(&other) => {

@@ -97,7 +97,7 @@ fn moved(p: Point, scale: u8, place: u8, pose: u8) -> Point {
 
 /// Adds the holes that leave the polygon valid, one after the other.
 fn accept(draft: Draft) -> Option<Shape> {
-    let options = Options { strict: false, regroup: draft.regroup };
+    let options = Options { regroup: draft.regroup, ..Options::default() };
     let build = |polygons: &Polygons| Domain::from_polygons(polygons, &options).ok();
     let mut polygons = vec![draft.rings];
     polygons.extend(draft.beside.map(|ring| vec![ring]));

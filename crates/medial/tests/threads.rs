@@ -24,9 +24,10 @@ fn shared(threads: usize) -> Options<'static> {
 /// Compares the axes by several numbers of threads with that by one, several times; false if the
 /// polygons are no domain.
 fn all_agree(name: &str, polygons: &Polygons, rounds: usize) -> bool {
-    let Ok(domain) =
-        Domain::from_polygons(polygons, &domain::Options { strict: false, regroup: true })
-    else {
+    let Ok(domain) = Domain::from_polygons(
+        polygons,
+        &domain::Options { regroup: true, ..domain::Options::default() },
+    ) else {
         return false;
     };
     for &engine in Engine::ALL {

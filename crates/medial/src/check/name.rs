@@ -42,7 +42,7 @@ impl Name {
         } else {
             Self {
                 kind: SiteKind::Vertex,
-                polygon: origin.polygon,
+                polygon: origin.corner.polygon,
                 ring: origin.corner.ring,
                 index: origin.corner.index,
                 part: origin.corner.part,

@@ -182,7 +182,7 @@ impl<'a, 'b> Pieces<'a, 'b> {
         let along = piece - self.first(edge);
         let part = if ring.reversed { self.touches(edge) - along } else { along };
         let index = self.rings.edge_index(edge);
-        let corner = CornerOrigin { ring: ring.index, index, part };
+        let corner = CornerOrigin { polygon: ring.polygon, ring: ring.index, index, part };
         Origin { polygon: ring.polygon, ring: ring.index, index, part, corner }
     }
 
@@ -194,10 +194,15 @@ impl<'a, 'b> Pieces<'a, 'b> {
         let along = piece - self.first(edge);
         if along == touches {
             let index = self.rings.given(self.rings.next(edge));
-            return CornerOrigin { ring: ring.index, index, part: 0 };
+            return CornerOrigin { polygon: ring.polygon, ring: ring.index, index, part: 0 };
         }
         let part = if ring.reversed { touches - along } else { along + 1 };
-        CornerOrigin { ring: ring.index, index: self.rings.edge_index(edge), part }
+        CornerOrigin {
+            polygon: ring.polygon,
+            ring: ring.index,
+            index: self.rings.edge_index(edge),
+            part,
+        }
     }
 
     /// All pieces by polygon, ring, index and part.

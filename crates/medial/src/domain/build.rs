@@ -4,10 +4,11 @@ use super::apart::{Nesting, apart};
 use super::assemble::assemble;
 use super::nesting::regroup;
 use super::outlines::Draft;
+use super::repair::repaired;
 use super::rings::{Rings, count_vertices};
 use super::status::NONE;
 use super::sweep::{Arrangement, Purpose, sweep};
-use super::{Domain, DomainError, Place, Repair, Report};
+use super::{Domain, DomainError, FillRule, Place, Repair, Report};
 use crate::geom::Point;
 
 /// How to treat input that is not valid as it stands.
@@ -17,6 +18,14 @@ pub struct Options {
     pub strict: bool,
     /// Find out which rings are holes by their depth (even-odd), whatever their place.
     pub regroup: bool,
+    /// Repair what is not valid: cut edges where they meet, and take what the rings of each polygon
+    /// enclose by the fill rule. What is valid stays as it is.
+    pub repair: bool,
+    /// Which points the rings of a polygon enclose; for other rules than even-odd holes are not told
+    /// by their place.
+    pub fill: FillRule,
+    /// Unite the polygons of a feature.
+    pub dissolve: bool,
 }
 
 impl Domain {
@@ -42,6 +51,55 @@ impl Domain {
     /// # Errors
     /// [`DomainError`] says where and why the polygons do not bound a domain.
     pub fn from_polygons(
+        polygons: &[Vec<Vec<Point>>],
+        options: &Options,
+    ) -> Result<Self, DomainError> {
+        let is_united = options.dissolve && polygons.len() > 1;
+        if options.fill == FillRule::EvenOdd && !is_united {
+            return match Self::validated(polygons, options) {
+                Err(error) if options.repair && !options.strict && error.is_reparable() => {
+                    Self::repaired(polygons, options, error)
+                }
+                result => result,
+            };
+        }
+        let regroup = options.regroup || options.fill != FillRule::EvenOdd;
+        let plain = Options { regroup, ..*options };
+        match Self::validated(polygons, &plain) {
+            Err(error) if !error.is_reparable() => Err(error),
+            // What crosses is refused, what is only united or nested otherwise is not.
+            Err(error) if options.strict || !options.repair => match error {
+                DomainError::PolygonsOverlap { .. } | DomainError::SharedEdge { .. }
+                    if is_united =>
+                {
+                    Self::repaired(polygons, options, error)
+                }
+                error => Err(error),
+            },
+            Err(error) => Self::repaired(polygons, options, error),
+            Ok(domain) if polygons.iter().map(Vec::len).sum::<usize>() < 2 => Ok(domain),
+            Ok(_) => repaired(polygons, options),
+        }
+    }
+
+    /// The domain of polygons that are not valid because of an error.
+    fn repaired(
+        polygons: &[Vec<Vec<Point>>],
+        options: &Options,
+        error: DomainError,
+    ) -> Result<Self, DomainError> {
+        match (repaired(polygons, options), error) {
+            // What was wrong with the rings says why nothing is left.
+            (
+                Err(DomainError::Empty { .. }),
+                DomainError::TooFewPoints { .. } | DomainError::Collinear { .. },
+            ) => Err(error),
+            (result, _) => result,
+        }
+    }
+
+    /// The domain of polygons that are valid, or become so without new vertices.
+    pub(super) fn validated(
         polygons: &[Vec<Vec<Point>>],
         options: &Options,
     ) -> Result<Self, DomainError> {

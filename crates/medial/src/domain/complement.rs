@@ -78,7 +78,7 @@ impl Complement {
     fn named(mut outside: Domain, domain: &Domain, inner: &[Vec<u32>]) -> Self {
         let pieces = Pieces::new(&outside, domain, inner);
         let n = outside.edges.len();
-        let nowhere = CornerOrigin { ring: NOWHERE, index: 0, part: 0 };
+        let nowhere = CornerOrigin { polygon: NOWHERE, ring: NOWHERE, index: 0, part: 0 };
         let wall = Origin { polygon: NOWHERE, ring: NOWHERE, index: 0, part: 0, corner: nowhere };
         let (mut records, mut places) = (vec![wall; n], vec![[NONE; 2]; n]);
         for (rank, &edge) in (0..).zip(&pieces.order) {
@@ -213,7 +213,12 @@ impl<'a> Pieces<'a> {
         let corner = if after == 0 {
             end
         } else {
-            CornerOrigin { ring: origin.ring, index: origin.index, part: touch }
+            CornerOrigin {
+                polygon: origin.polygon,
+                ring: origin.ring,
+                index: origin.index,
+                part: touch,
+            }
         };
         Origin { part, corner, ..origin }
     }

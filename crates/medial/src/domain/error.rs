@@ -229,6 +229,14 @@ impl DomainError {
         }
     }
 
+    /// Whether a repair may help.
+    pub(super) const fn is_reparable(&self) -> bool {
+        !matches!(
+            self,
+            Self::NotFinite { .. } | Self::ExponentOutOfRange { .. } | Self::TooLarge { .. }
+        )
+    }
+
     /// The place it is about, or the first of two; its ring and index only mean something if
     /// [`ring`](Self::ring) and [`index`](Self::index) say so.
     #[must_use]

@@ -4,6 +4,7 @@
 //! else `sweep` and `junction` find how they meet, and `assemble` links what is left into walks.
 //! `nesting` tells outer rings from holes if asked to. `outlines` turns walks into a [`Domain`].
 //! `complement` turns a domain inside out, and `horizon` tells what of it is seen from far away.
+//! `repair` makes a domain of what is none as it stands, if asked to.
 //! What was changed is in the [`Report`], and why a feature is refused in the [`DomainError`].
 
 mod apart;
@@ -24,6 +25,7 @@ mod order;
 mod origins;
 mod outlines;
 mod reduce;
+mod repair;
 mod report;
 mod rings;
 mod sites;

@@ -22,6 +22,8 @@ pub struct Origin {
 /// Where a corner comes from: a wedge between two rings is named by the ring of its incoming edge.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct CornerOrigin {
+    /// Polygon of the incoming edge: that of the outgoing one, unless polygons were united.
+    pub polygon: u32,
     /// Ring of the incoming edge.
     pub ring: u32,
     /// Position of the corner in that ring as given; where the ring has no vertex there because
@@ -80,8 +82,9 @@ impl Domain {
                     first => self.origins.given[(first + vertex) as usize],
                 };
                 let index = position(if reversed { before } else { vertex });
-                let corner = CornerOrigin { ring, index: position(vertex), part: 0 };
-                Origin { polygon: walk.polygon, ring, index, part: 0, corner }
+                let polygon = walk.polygon;
+                let corner = CornerOrigin { polygon, ring, index: position(vertex), part: 0 };
+                Origin { polygon, ring, index, part: 0, corner }
             }
             Source::Pieces { first } => self.origins.records[(first + along) as usize],
         }

@@ -1,13 +1,16 @@
 use std::fmt;
 
+use crate::geom::Point;
+
 /// What was changed to make a feature valid, in the order in which it was done.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Report {
     entries: Vec<Entry>,
+    moved: f64,
 }
 
 /// One kind of change to one ring.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Entry {
     /// What was done.
     pub repair: Repair,
@@ -18,6 +21,9 @@ pub struct Entry {
     /// Positions in the ring as given of all vertices, or first vertices of edges, concerned;
     /// empty where the whole ring is.
     pub indices: Vec<u32>,
+    /// Where it shows in the plane, if that is not in these vertices: where edges cross, or where
+    /// pieces of them lie on each other.
+    pub points: Vec<Point>,
 }
 
 /// A kind of change. `Display` gives its name in report files.
@@ -49,11 +55,21 @@ pub enum Repair {
     Bridge,
     /// `cut_interior`: touching rings cut the interior of the polygon into several parts.
     CutInterior,
+    /// `crossing`: edges were cut where they cross.
+    Crossing,
+    /// `overlap`: pieces of edges that lie on each other were taken together.
+    Overlap,
+    /// `duplicate_ring`: a ring, or a polygon, given once more was dropped.
+    DuplicateRing,
+    /// `dissolved`: polygons of the feature were united.
+    Dissolved,
+    /// `snapped`: vertices were moved to a grid, as nothing finer gave a valid domain.
+    Snapped,
 }
 
 impl Repair {
     /// All kinds, in order.
-    pub const ALL: [Self; 11] = [
+    pub const ALL: [Self; 16] = [
         Self::RepeatedPoint,
         Self::StraightCorner,
         Self::Spike,
@@ -65,6 +81,11 @@ impl Repair {
         Self::SelfTouch,
         Self::Bridge,
         Self::CutInterior,
+        Self::Crossing,
+        Self::Overlap,
+        Self::DuplicateRing,
+        Self::Dissolved,
+        Self::Snapped,
     ];
 
     /// The name in report files.
@@ -82,6 +103,11 @@ impl Repair {
             Self::SelfTouch => "self_touch",
             Self::Bridge => "bridge",
             Self::CutInterior => "cut_interior",
+            Self::Crossing => "crossing",
+            Self::Overlap => "overlap",
+            Self::DuplicateRing => "duplicate_ring",
+            Self::Dissolved => "dissolved",
+            Self::Snapped => "snapped",
         }
     }
 
@@ -115,8 +141,24 @@ impl Report {
         of_kind.map(|e| e.indices.len().max(1)).sum()
     }
 
+    /// How far edges were moved at most, in units of the input: by rounding where they cross, mostly.
+    #[must_use]
+    pub const fn moved(&self) -> f64 {
+        self.moved
+    }
+
     pub(super) fn push(&mut self, repair: Repair, polygon: u32, ring: u32, indices: Vec<u32>) {
-        self.entries.push(Entry { repair, polygon, ring, indices });
+        self.entries.push(Entry { indices, ..Entry::of(repair, polygon, ring) });
+    }
+
+    pub(super) fn repaired(entries: Vec<Entry>, moved: f64) -> Self {
+        Self { entries, moved }
+    }
+}
+
+impl Entry {
+    pub(super) fn of(repair: Repair, polygon: u32, ring: u32) -> Self {
+        Self { repair, polygon, ring, indices: Vec::new(), points: Vec::new() }
     }
 }
 

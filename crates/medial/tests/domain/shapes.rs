@@ -1,4 +1,4 @@
-use medial::domain::{Corner, Domain, DomainError, Options};
+use medial::domain::{Corner, Domain, DomainError, FillRule, Options};
 use medial::geom::Point;
 
 pub type Rings = Vec<Vec<Point>>;
@@ -13,8 +13,16 @@ pub fn rings(text: &str) -> Rings {
     text.split('/').map(ring).collect()
 }
 
-pub const STRICT: Options = Options { strict: true, regroup: false };
-pub const REGROUP: Options = Options { strict: false, regroup: true };
+pub const STRICT: Options = Options { strict: true, ..PLAIN };
+pub const REGROUP: Options = Options { regroup: true, ..PLAIN };
+
+const PLAIN: Options = Options {
+    strict: false,
+    regroup: false,
+    repair: false,
+    fill: FillRule::EvenOdd,
+    dissolve: false,
+};
 
 pub fn domain(text: &str) -> Domain {
     Domain::from_polygons(&[rings(text)], &Options::default()).expect("a valid polygon")

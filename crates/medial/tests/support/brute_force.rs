@@ -80,7 +80,7 @@ pub fn axis_site(domain: &Domain, site: Site) -> AxisSite {
     } else {
         AxisSite {
             kind: SiteKind::Vertex,
-            polygon: origin.polygon,
+            polygon: origin.corner.polygon,
             ring: origin.corner.ring,
             index: origin.corner.index,
             part: origin.corner.part,

@@ -55,7 +55,7 @@ fn shown(domain: &Domain) -> String {
 
 /// Checks one feature; says whether the rings were shown to be apart, and well nested.
 fn agrees(polygons: &[Vec<Vec<Point>>], regroup: bool) -> (bool, bool) {
-    let options = Options { strict: false, regroup };
+    let options = Options { regroup, ..Options::default() };
     let clean = || {
         let mut report = Report::default();
         Rings::clean(polygons, &options, &mut report).map(|rings| (rings, report))

@@ -209,7 +209,7 @@ fn corner_record(domain: &Domain, edge: u32, origin: &Origin) -> axis::Site {
     let at = domain.edge(edge).start;
     axis::Site {
         kind: SiteKind::Vertex,
-        polygon: origin.polygon,
+        polygon: origin.corner.polygon,
         ring: origin.corner.ring,
         index: origin.corner.index,
         part: origin.corner.part,

@@ -80,7 +80,7 @@ impl Corners {
         };
         let polygon = |rings: &Vec<Vec<Point>>| rings.iter().map(ring).collect::<Option<Vec<_>>>();
         let polygons = self.polygons.iter().map(polygon).collect::<Option<Vec<_>>>()?;
-        let options = Options { strict: true, regroup: self.regroup };
+        let options = Options { strict: true, regroup: self.regroup, ..Options::default() };
         let domain = Domain::from_polygons(&polygons, &options).ok()?;
         let harmless = |repair| {
             matches!(repair, Repair::StraightCorner | Repair::Reversed | Repair::Regrouped)
