@@ -38,6 +38,12 @@ pub struct Entry {
     pub ring: Option<u32>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub indices: Vec<u32>,
+    /// Where it shows in the plane.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub points: Vec<[f64; 2]>,
+    /// How far the edges of the feature were moved at most.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub moved: Option<f64>,
     pub message: String,
 }
 
@@ -67,6 +73,8 @@ impl Entry {
             polygon: None,
             ring: None,
             indices: Vec::new(),
+            points: Vec::new(),
+            moved: None,
             message: message.into(),
         }
     }
@@ -82,6 +90,7 @@ impl Entry {
             polygon: error.polygon(),
             ring: error.ring(),
             indices: error.index().into_iter().collect(),
+            points: error.point().map(|p| [p.x, p.y]).into_iter().collect(),
             ..Self::refused(error.code(), error.to_string())
         }
     }
@@ -121,12 +130,15 @@ impl Entry {
 pub fn repairs(repairs: &Repairs, lone: bool) -> Vec<(bool, Entry)> {
     let entry = |e: &medial::domain::Entry| {
         let polygon = if lone { String::new() } else { format!("polygon {}, ", e.polygon) };
+        let matters = matches!(e.repair, Repair::Crossing | Repair::Snapped);
         let entry = Entry {
             action: action(e.repair),
             code: e.repair.as_str(),
             polygon: Some(e.polygon),
             ring: Some(e.ring),
             indices: e.indices.clone(),
+            points: e.points.iter().map(|p| [p.x, p.y]).collect(),
+            moved: matters.then(|| repairs.moved()),
             message: format!("{polygon}ring {}{}: {}", e.ring, listed(&e.indices), told(e.repair)),
         };
         (e.repair.is_warning(), entry)
@@ -140,6 +152,7 @@ fn action(repair: Repair) -> Action {
         | Repair::EmptyPolygon
         | Repair::Spike
         | Repair::Bridge
+        | Repair::DuplicateRing
         | Repair::RepeatedPoint => Action::Dropped,
         _ => Action::Repaired,
     }
@@ -159,6 +172,11 @@ fn told(repair: Repair) -> String {
         Repair::SelfTouch => "the ring passes a point twice",
         Repair::Bridge => "edges run through both ways are removed",
         Repair::CutInterior => "touching rings cut the interior",
+        Repair::Crossing => "edges are cut where they cross",
+        Repair::Overlap => "edges that lie on each other are taken together",
+        Repair::DuplicateRing => "what is given once more is dropped",
+        Repair::Dissolved => "the polygons of the feature are united",
+        Repair::Snapped => "vertices are moved to a grid",
         _ => return repair.to_string(),
     }
     .to_owned()

@@ -30,17 +30,9 @@ fn count(domain: &Domain, repair: Repair) -> usize {
     domain.report().count(repair)
 }
 
-/// The walks of a domain as one polygon for each of its polygons.
+/// The polygons of a domain that are left.
 fn polygons_of(domain: &Domain) -> Polygons {
-    let mut polygons = Polygons::new();
-    for walk in domain.walks() {
-        polygons.resize(polygons.len().max(walk.polygon as usize + 1), Vec::new());
-        let edges = walk.first as usize..(walk.first + walk.len) as usize;
-        let points = domain.edges()[edges].iter().map(|edge| edge.start).collect();
-        polygons[walk.polygon as usize].push(points);
-    }
-    polygons.retain(|rings| !rings.is_empty());
-    polygons
+    domain.polygons().into_iter().filter(|rings| !rings.is_empty()).collect()
 }
 
 /// How often rings go around a point, and how often they pass above it.

@@ -12,6 +12,7 @@ use crate::failure::{Failure, Status};
 use clap::error::ErrorKind;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use medial::axis::{Engine, Side};
+use medial::domain::{self, FillRule};
 use medial::geom::Point;
 use medial::ops::Measure;
 use medial_io::Format;
@@ -643,6 +644,13 @@ pub struct Common {
     /// Find out which rings are holes by their depth, whatever their place
     #[arg(long)]
     pub regroup: bool,
+    /// Which points the rings of a polygon enclose where they cross or are nested in any way:
+    /// even-odd, nonzero; by default what the format says, else even-odd
+    #[arg(long, value_name = "RULE")]
+    pub fill: Option<Fill>,
+    /// Unite the polygons of each feature where they overlap or share an edge
+    #[arg(long)]
+    pub dissolve: bool,
     /// What to do about a bad feature
     #[arg(long, value_name = "WHAT", default_value = "skip")]
     pub on_error: OnError,
@@ -661,6 +669,37 @@ pub struct Common {
     /// Print errors only, no warnings
     #[arg(short, long)]
     pub quiet: bool,
+}
+
+impl Common {
+    /// How to make a domain of a feature, whose format has a fill rule.
+    pub fn domain_options(&self, fill: FillRule) -> domain::Options {
+        domain::Options {
+            strict: self.strict,
+            regroup: self.regroup,
+            repair: !self.strict,
+            fill: self.fill.map_or(fill, FillRule::from),
+            dissolve: self.dissolve,
+        }
+    }
+}
+
+/// Names of fill rules.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Fill {
+    /// Those that the rings go around an odd number of times.
+    EvenOdd,
+    /// Those that they go around, more often one way than the other.
+    Nonzero,
+}
+
+impl From<Fill> for FillRule {
+    fn from(fill: Fill) -> Self {
+        match fill {
+            Fill::EvenOdd => Self::EvenOdd,
+            Fill::Nonzero => Self::NonZero,
+        }
+    }
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]

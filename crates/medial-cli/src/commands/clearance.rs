@@ -8,7 +8,7 @@ use crate::input::Documents;
 use crate::report::Entry;
 use crate::timings::{Stages, timed};
 use medial::axis::MedialAxis;
-use medial::domain::{self, Domain};
+use medial::domain::{Domain, FillRule};
 use medial::engine::{self, interior};
 use medial::geom::Point;
 use medial::ops::{
@@ -128,7 +128,7 @@ fn together(args: &ClearanceArgs, mut run: Run<'_>) -> Result<Status, Failure> {
             }
             let place = |polygon: u32| places.get(polygon as usize).copied().unwrap_or_default();
             let fails = |why: String| Failure::file(&input.name, why);
-            let asked = domain::Options { strict: common.strict, regroup: common.regroup };
+            let asked = common.domain_options(FillRule::default());
             let domain =
                 timed(&mut stages.domain, || Domain::from_polygons(&polygons, &asked)).map_err(
                     |error| {

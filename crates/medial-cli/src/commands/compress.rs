@@ -75,11 +75,13 @@ fn shape(
     options: &engine::Options<'_>,
     stages: &mut Stages,
 ) -> Result<Compressed, Entry> {
+    // Rings that cross or overlap bound nothing without being repaired.
+    let is_rebuilt = domain.report().is_rebuilt();
     let corners = Corners {
         engine: args.engine,
-        regroup: args.common.regroup,
+        regroup: args.common.regroup || is_rebuilt,
         error: 0.0,
-        polygons: feature.polygons.clone(),
+        polygons: if is_rebuilt { domain.polygons() } else { feature.polygons.clone() },
     };
     if args.max_error == 0.0 {
         return Ok(Compressed::Corners(corners));

@@ -9,7 +9,7 @@ use crate::parallel::ordered;
 use crate::progress::Progress;
 use crate::report::{self, Entry, FeatureReport, Report};
 use crate::timings::{self, Stages, timed};
-use medial::domain::{Domain, Options};
+use medial::domain::Domain;
 use medial_io::{Error, Feature, FeatureError, Json, Layer, Part};
 use std::num::NonZeroUsize;
 use std::ops::ControlFlow;
@@ -280,7 +280,7 @@ fn valid(feature: &Feature, common: &Common, time: &mut Duration) -> Result<Doma
         let why = format!("is {} without points; leave it out", feature.geometry);
         return Err(Entry::refused("empty", why));
     }
-    let options = Options { strict: common.strict, regroup: common.regroup };
+    let options = common.domain_options(feature.fill);
     timed(time, || Domain::from_polygons(&feature.polygons, &options))
         .map_err(|error| Entry::invalid(&error))
 }

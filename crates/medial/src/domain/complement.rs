@@ -139,6 +139,9 @@ struct Pieces<'a> {
     /// For each piece how many there are of the same edge of the input before and after it, along the
     /// inner boundary.
     around: Vec<[u32; 2]>,
+    /// More than any number of a part, where what is cut keeps the numbers that it has: of a repaired
+    /// domain, in which parts of one edge may run either way.
+    beyond: Option<u32>,
 }
 
 impl<'a> Pieces<'a> {
@@ -165,7 +168,13 @@ impl<'a> Pieces<'a> {
             }
         }
         let around = vec![[0; 2]; inner.len()];
-        let mut pieces = Self { domain, order, inner, first, around };
+        let records = domain.origins.records.iter();
+        let most = || records.map(|o| o.part.max(o.corner.part)).max().unwrap_or(0);
+        let beyond = domain.report().is_rebuilt().then(|| most() + 1);
+        let mut pieces = Self { domain, order, inner, first, around, beyond };
+        if beyond.is_some() {
+            return pieces;
+        }
         let is_whole = |&m: &u32| domain.origin(m).part == 0;
         if !pieces.inner.is_sorted_by(|a, b| a < b) || !pieces.inner.iter().all(is_whole) {
             pieces.count(outside);
@@ -205,6 +214,14 @@ impl<'a> Pieces<'a> {
         let edge = self.inner[rank as usize];
         let (origin, end) = (self.domain.origin(edge), self.domain.edge(edge).next);
         let end = self.domain.origin(end).corner;
+        if let Some(beyond) = self.beyond {
+            let more = beyond * (rank - self.first[edge as usize]);
+            let is_last = self.inner.get(rank as usize + 1) != Some(&edge);
+            let Origin { polygon, ring, index, part, .. } = origin;
+            let touch = CornerOrigin { polygon, ring, index, part: part + more + beyond };
+            let corner = if is_last { end } else { touch };
+            return Origin { part: part + more, corner, ..origin };
+        }
         // An edge is named by its first vertex in input direction.
         let runs_along =
             if end.part == 0 { end.index != origin.index } else { end.part == origin.part + 1 };

@@ -7,6 +7,7 @@ use crate::geom::Point;
 pub struct Report {
     entries: Vec<Entry>,
     moved: f64,
+    is_rebuilt: bool,
 }
 
 /// One kind of change to one ring.
@@ -151,8 +152,14 @@ impl Report {
         self.entries.push(Entry { indices, ..Entry::of(repair, polygon, ring) });
     }
 
-    pub(super) fn repaired(entries: Vec<Entry>, moved: f64) -> Self {
-        Self { entries, moved }
+    /// Whether the boundary is made of other rings than those given, which were cut and joined anew.
+    #[must_use]
+    pub const fn is_rebuilt(&self) -> bool {
+        self.is_rebuilt
+    }
+
+    pub(super) fn rebuilt(entries: Vec<Entry>, moved: f64) -> Self {
+        Self { entries, moved, is_rebuilt: true }
     }
 }
 

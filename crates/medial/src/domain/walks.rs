@@ -132,6 +132,20 @@ pub struct Domain {
 }
 
 impl Domain {
+    /// The rings of each polygon, outer ones and holes, each with the interior on its left: the domain
+    /// again, if rings are regrouped. A polygon without any has none.
+    #[must_use]
+    pub fn polygons(&self) -> Vec<Vec<Vec<Point>>> {
+        let n = self.walks.iter().map(|walk| walk.polygon as usize + 1).max().unwrap_or(0);
+        let mut polygons = vec![Vec::new(); n];
+        for walk in &self.walks {
+            let edges = walk.first as usize..(walk.first + walk.len) as usize;
+            let ring = self.edges[edges].iter().map(|edge| edge.start).collect();
+            polygons[walk.polygon as usize].push(ring);
+        }
+        polygons
+    }
+
     /// The box of all corners.
     #[must_use]
     pub fn bounds(&self) -> Rect {

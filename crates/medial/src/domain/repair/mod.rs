@@ -131,7 +131,7 @@ pub(super) fn repaired(
     entries.extend(cut.cloned());
     domain.origins = names.origins(&domain, &rings);
     entries.sort_by_key(|entry| (entry.polygon, entry.ring, entry.repair));
-    domain.report = Report::repaired(entries, moved);
+    domain.report = Report::rebuilt(entries, moved);
     Ok(domain)
 }
 
