@@ -8,6 +8,7 @@ mod comparison;
 mod failure;
 mod guard;
 mod input;
+mod interrupt;
 mod output;
 mod parallel;
 mod progress;
@@ -22,6 +23,7 @@ use std::process::ExitCode;
 
 fn main() -> ExitCode {
     guard::install();
+    interrupt::install();
     let Ok(result) = guard::caught(run) else { return Status::NoResult.into() };
     match result {
         Ok(status) => status.into(),

@@ -1,4 +1,5 @@
 use crate::failure::{Failure, plain};
+use crate::interrupt;
 use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -45,7 +46,7 @@ impl Output {
             // As for any new file: the umask takes off what it should.
             builder.permissions(fs::Permissions::from_mode(0o666));
         }
-        let file = builder.tempfile_in(folder).map_err(failed)?;
+        let file = interrupt::unfinished(|| builder.tempfile_in(folder)).map_err(failed)?;
         Ok(Self::File { text: io::BufWriter::with_capacity(BUFFER, file), path })
     }
 

@@ -1,5 +1,7 @@
 use cpu_time::ProcessTime;
+use medial::engine::Options;
 use serde::Serialize;
+use std::num::NonZeroUsize;
 use std::time::{Duration, Instant};
 
 /// Wall time spent in each stage, summed over features.
@@ -10,9 +12,16 @@ pub struct Stages {
     pub engine: Duration,
     pub operations: Duration,
     pub write: Duration,
+    /// When the present feature must be done.
+    pub deadline: Option<Instant>,
 }
 
 impl Stages {
+    /// How an engine works on the present feature.
+    pub fn options(&self, threads: NonZeroUsize) -> Options<'static> {
+        Options { threads, deadline: self.deadline, ..Options::default() }
+    }
+
     pub fn add(&mut self, other: Self) {
         self.read += other.read;
         self.domain += other.domain;

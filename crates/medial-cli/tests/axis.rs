@@ -90,7 +90,7 @@ fn bad_features_are_left_out_and_named() {
     assert_eq!(numbers, [0, 5, 6]);
     let expected = format!(
         "error: {input}: feature 1: is a LineString; only polygons have a medial axis, leave it out\n\
-         error: {input}: feature 2: ring 0, edge 0: crosses ring 0, edge 2 at (1, 1); repair the polygon\n\
+         error: {input}: feature 2: polygon 0: overlaps polygon 1 near (1, 1); dissolve the polygons first\n\
          error: {input}: feature 3: is without a geometry; only polygons have a medial axis, leave it out\n\
          error: {input}: feature 4: line 10, column 147: invalid type: string \"4\", expected a number\n\
          warning: {input}: feature 5: ring 0, vertex 3: spikes are removed\n\
@@ -123,7 +123,7 @@ fn a_report_says_what_was_done_to_each_feature() {
         .collect();
     let expected = [
         (1, "refused", "not_polygon"),
-        (2, "refused", "crossing"),
+        (2, "refused", "polygons_overlap"),
         (3, "refused", "not_polygon"),
         (4, "refused", "malformed"),
         (5, "dropped", "spike"),
@@ -131,8 +131,8 @@ fn a_report_says_what_was_done_to_each_feature() {
         (6, "dropped", "part_not_polygon"),
     ];
     assert_eq!(told, expected.map(|(f, a, c)| (json!(f), json!(a), json!(c))));
-    let crossing = &report["features"][1]["entries"][0];
-    assert_eq!((&crossing["ring"], &crossing["indices"]), (&json!(0), &json!([0])));
+    let overlap = &report["features"][1]["entries"][0];
+    assert_eq!((&overlap["polygon"], &overlap["points"]), (&json!(0), &json!([[1.0, 1.0]])));
     assert!(text.contains("\"id\": 18446744073709551617,"));
 }
 

@@ -19,6 +19,7 @@ use medial_io::Format;
 use medial_io::svg::Extra;
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
+use std::time::{Duration, Instant};
 
 /// Exact medial axes of polygons.
 #[derive(Debug, Parser)]
@@ -651,6 +652,12 @@ pub struct Common {
     /// Unite the polygons of each feature where they overlap or share an edge
     #[arg(long)]
     pub dissolve: bool,
+    /// Leave out features with more vertices
+    #[arg(long, value_name = "N")]
+    pub max_vertices: Option<usize>,
+    /// Leave out features whose domain and axes take longer, in seconds
+    #[arg(long, value_name = "S", value_parser = positive, allow_negative_numbers = true)]
+    pub max_seconds: Option<f64>,
     /// What to do about a bad feature
     #[arg(long, value_name = "WHAT", default_value = "skip")]
     pub on_error: OnError,
@@ -680,7 +687,14 @@ impl Common {
             repair: !self.strict,
             fill: self.fill.map_or(fill, FillRule::from),
             dissolve: self.dissolve,
+            deadline: self.deadline(),
         }
+    }
+
+    /// When a feature that is begun now must be done.
+    pub fn deadline(&self) -> Option<Instant> {
+        let limit = Duration::try_from_secs_f64(self.max_seconds?).ok()?;
+        Instant::now().checked_add(limit)
     }
 }
 

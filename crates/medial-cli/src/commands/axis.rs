@@ -76,12 +76,12 @@ fn run_on(args: &AxisArgs, documents: Documents) -> Result<Status, Failure> {
     let mut told = Ok(());
     let mut write = std::time::Duration::ZERO;
     let (at_once, threads) = run.threads(&layer);
-    let options = engine::Options { threads, ..engine::Options::default() };
     let status = run.each(
         &input,
         layer,
         at_once,
         |feature, domain, stages, bytes| {
+            let options = stages.options(threads);
             // All that is asked of a feature, or nothing.
             let axes =
                 timed(&mut stages.engine, || trace(args.engine, &args.region, domain, &options))?;

@@ -275,13 +275,13 @@ fn each<R: Send>(
     let input = run.open_with(input, Documents::AsPolygons)?;
     let layer = timed(&mut run.stages.read, || input.layer())?;
     let (at_once, threads) = run.threads(&layer);
-    let options = engine::Options { threads, ..engine::Options::default() };
     let mut time = Duration::ZERO;
     let status = run.each(
         &input,
         layer,
         at_once,
         |feature, domain, stages, bytes| {
+            let options = stages.options(threads);
             let sides = sides(args.engine, domain, stages, &options)?;
             let limbs = timed(&mut stages.operations, || all_limbs(args, domain, &sides))?;
             Ok(work(feature, (feature.index, limbs), bytes))

@@ -6,7 +6,7 @@ use crate::failure::{Failure, Status};
 use crate::report::Entry;
 use crate::timings::timed;
 use medial::axis::Engine;
-use medial::engine::{self, interior};
+use medial::engine::interior;
 use medial::geom::Point;
 use medial::ops::{
     Centerline, CenterlineOptions, Extension, LineOptions, Route, centerlines, polylines,
@@ -27,13 +27,13 @@ pub fn run(args: &CenterlineArgs) -> Result<Status, Failure> {
     let mut pictures = Vec::new();
     let mut write = Duration::ZERO;
     let (at_once, threads) = run.threads(&layer);
-    let options = engine::Options { threads, ..engine::Options::default() };
     let z = args.z.is_some();
     let status = run.each(
         &input,
         layer,
         at_once,
         |feature, domain, stages, bytes| {
+            let options = stages.options(threads);
             let axis = timed(&mut stages.engine, || interior(domain, args.engine, &options))
                 .map_err(|error| Entry::unfinished(&error))?;
             let tolerance = args.tolerance.unwrap_or_else(|| domain_tolerance(domain));

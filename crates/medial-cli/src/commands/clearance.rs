@@ -109,7 +109,7 @@ fn together(args: &ClearanceArgs, mut run: Run<'_>) -> Result<Status, Failure> {
     let plan = plan_of_places(args)?;
     let format = plan.format()?;
     let input = run.open_with(&args.input, Documents::AsPolygons)?;
-    let options = engine::Options { threads: run.all_threads(), ..engine::Options::default() };
+    let threads = run.all_threads();
     let common = run.common;
     plan.run_and_draw(
         run,
@@ -142,7 +142,8 @@ fn together(args: &ClearanceArgs, mut run: Run<'_>) -> Result<Status, Failure> {
                         ))
                     },
                 )?;
-            let records = all_places(args, &domain, &options, stages, &place)
+            stages.deadline = common.deadline();
+            let records = all_places(args, &domain, &stages.options(threads), stages, &place)
                 .map_err(|entry| fails(format!("the features together: {}", entry.message)))?;
             Ok(timed(&mut stages.write, || {
                 let mut bytes = Vec::new();

@@ -4,7 +4,6 @@ use crate::comparison::{Comparison, Totals, csv_header};
 use crate::failure::{Failure, Status};
 use crate::output::Output;
 use crate::timings::timed;
-use medial::engine::Options;
 use std::num::NonZeroUsize;
 
 /// `medial compare`.
@@ -16,7 +15,6 @@ pub fn run(args: &CompareArgs) -> Result<Status, Failure> {
     let layer = timed(&mut run.stages.read, || input.layer())?;
     let mut output = Output::create(args.output.as_deref())?;
     let threads = args.common.threads.unwrap_or(NonZeroUsize::MIN);
-    let options = Options { threads, ..Options::default() };
     let mut totals = Totals::default();
     let mut begun = false;
     let status = run.each(
@@ -25,6 +23,7 @@ pub fn run(args: &CompareArgs) -> Result<Status, Failure> {
         // Two at once would share the memory and the processor whose use is measured.
         NonZeroUsize::MIN,
         |feature, domain, stages, bytes| {
+            let options = stages.options(threads);
             // All that is asked of a feature, or nothing.
             let mut of_sides = Vec::new();
             for &side in args.region.side.all() {

@@ -26,7 +26,6 @@ pub fn run(args: &CompressArgs) -> Result<Status, Failure> {
     // The sizes go where the file does not.
     let mut rows = file.map(|_| Output::create(None)).transpose()?;
     let (at_once, threads) = run.threads(&layer);
-    let options = engine::Options { threads, ..engine::Options::default() };
     let mut totals = Totals::default();
     let mut begun = false;
     let status = run.each(
@@ -34,6 +33,7 @@ pub fn run(args: &CompressArgs) -> Result<Status, Failure> {
         layer,
         at_once,
         |feature, domain, stages, bytes| {
+            let options = stages.options(threads);
             let shape = shape(feature, domain, args, &options, stages)?;
             let record = Record { feature: feature.index, id: feature.id.clone(), shape };
             let wkb = wkb::write_polygons(&feature.polygons);
@@ -79,7 +79,7 @@ fn shape(
     let is_rebuilt = domain.report().is_rebuilt();
     let corners = Corners {
         engine: args.engine,
-        regroup: args.common.regroup || is_rebuilt,
+        regroup: args.common.regroup && !is_rebuilt,
         error: 0.0,
         polygons: if is_rebuilt { domain.polygons() } else { feature.polygons.clone() },
     };

@@ -244,6 +244,7 @@ fn process<R>(
     }
     let result = guarded(|| {
         let mut stages = outcome.stages;
+        stages.deadline = common.deadline();
         let result = valid(&feature, common, &mut stages.domain).and_then(|domain| {
             for (warn, entry) in report::repairs(domain.report(), feature.polygons.len() == 1) {
                 if warn {
@@ -279,6 +280,11 @@ fn valid(feature: &Feature, common: &Common, time: &mut Duration) -> Result<Doma
     if feature.polygons.is_empty() {
         let why = format!("is {} without points; leave it out", feature.geometry);
         return Err(Entry::refused("empty", why));
+    }
+    let n_vertices: usize = feature.polygons.iter().flatten().map(Vec::len).sum();
+    if let Some(most) = common.max_vertices.filter(|&most| n_vertices > most) {
+        let why = format!("has {n_vertices} vertices; --max-vertices allows {most}");
+        return Err(Entry::refused("max_vertices", why));
     }
     let options = common.domain_options(feature.fill);
     timed(time, || Domain::from_polygons(&feature.polygons, &options))

@@ -102,12 +102,12 @@ impl Plan<'_> {
         let mut parts = Vec::new();
         let mut write = Duration::ZERO;
         let (at_once, threads) = run.threads(&layer);
-        let options = engine::Options { threads, ..engine::Options::default() };
         let status = run.each(
             input,
             layer,
             at_once,
             |feature, domain, stages, bytes| {
+                let options = stages.options(threads);
                 let records = match work(feature, domain, stages, &options)? {
                     Found::Records(records) => records,
                     Found::Text(text) => {

@@ -7,7 +7,7 @@ use crate::report::Entry;
 use crate::timings::timed;
 use medial::axis::MedialAxis;
 use medial::domain::Domain;
-use medial::engine::{self, exterior_frame};
+use medial::engine::exterior_frame;
 use medial::ops::{Voronoi, VoronoiError};
 use medial_io::svg::{Diagram, Options, write_diagrams};
 use medial_io::{Feature, Format, geojson, voronoi_document};
@@ -23,12 +23,12 @@ pub fn run(args: &VoronoiArgs) -> Result<Status, Failure> {
     let mut diagrams = Vec::new();
     let mut write = Duration::ZERO;
     let (at_once, threads) = run.threads(&layer);
-    let options = engine::Options { threads, ..engine::Options::default() };
     let status = run.each(
         &input,
         layer,
         at_once,
         |feature, domain, stages, bytes| {
+            let options = stages.options(threads);
             let axes =
                 timed(&mut stages.engine, || trace(args.engine, &args.region, domain, &options))?;
             let voronoi =

@@ -1,4 +1,5 @@
 use std::mem;
+use std::time::Instant;
 
 use super::apart::{Nesting, apart};
 use super::assemble::assemble;
@@ -26,6 +27,8 @@ pub struct Options {
     pub fill: FillRule,
     /// Unite the polygons of a feature.
     pub dissolve: bool,
+    /// When to give up a repair, which may find a crossing for every two edges.
+    pub deadline: Option<Instant>,
 }
 
 impl Domain {

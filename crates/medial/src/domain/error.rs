@@ -152,6 +152,9 @@ pub enum DomainError {
         /// Number of vertices.
         found: usize,
     },
+    /// `time_limit`: the repair was not done in time.
+    #[error("the time was up before the polygon was repaired; allow more, or divide it")]
+    TimeLimit,
     /// `internal`: our fault.
     #[error("internal error in {stage}; please report it with the input")]
     Internal {
@@ -187,7 +190,7 @@ impl fmt::Display for NestingFault {
 
 impl DomainError {
     /// All reason codes.
-    pub const CODES: [&str; 16] = [
+    pub const CODES: [&str; 17] = [
         "not_finite",
         "exponent_out_of_range",
         "empty",
@@ -203,6 +206,7 @@ impl DomainError {
         "cut_interior",
         "shared_edge",
         "too_large",
+        "time_limit",
         "internal",
     ];
 
@@ -225,6 +229,7 @@ impl DomainError {
             Self::CutInterior { .. } => "cut_interior",
             Self::SharedEdge { .. } => "shared_edge",
             Self::TooLarge { .. } => "too_large",
+            Self::TimeLimit => "time_limit",
             Self::Internal { .. } => "internal",
         }
     }
@@ -233,7 +238,10 @@ impl DomainError {
     pub(super) const fn is_reparable(&self) -> bool {
         !matches!(
             self,
-            Self::NotFinite { .. } | Self::ExponentOutOfRange { .. } | Self::TooLarge { .. }
+            Self::NotFinite { .. }
+                | Self::ExponentOutOfRange { .. }
+                | Self::TooLarge { .. }
+                | Self::TimeLimit
         )
     }
 
@@ -256,7 +264,7 @@ impl DomainError {
             | Self::Bridge { first, .. }
             | Self::SharedEdge { first, .. } => Some(first),
             Self::BadNesting { ring, .. } => Some(ring),
-            Self::TooLarge { .. } | Self::Internal { .. } => None,
+            Self::TooLarge { .. } | Self::TimeLimit | Self::Internal { .. } => None,
         }
     }
 
@@ -387,6 +395,7 @@ mod tests {
             DomainError::CutInterior { at, parts: 2 },
             DomainError::SharedEdge { first, second, at: point },
             DomainError::TooLarge { found: 1 << 31 },
+            DomainError::TimeLimit,
             DomainError::Internal { stage: "sweep" },
         ];
         assert_eq!(all.map(|e| e.code()), DomainError::CODES);

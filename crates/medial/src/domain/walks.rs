@@ -132,18 +132,18 @@ pub struct Domain {
 }
 
 impl Domain {
-    /// The rings of each polygon, outer ones and holes, each with the interior on its left: the domain
-    /// again, if rings are regrouped. A polygon without any has none.
+    /// The components of the interior as valid polygons: for each the outer ring and the holes, all of
+    /// them with the interior on their left.
     #[must_use]
     pub fn polygons(&self) -> Vec<Vec<Vec<Point>>> {
-        let n = self.walks.iter().map(|walk| walk.polygon as usize + 1).max().unwrap_or(0);
-        let mut polygons = vec![Vec::new(); n];
-        for walk in &self.walks {
+        let mut order: Vec<&Walk> = self.walks.iter().collect();
+        order.sort_by_key(|walk| (walk.component, walk.hole));
+        let ring = |walk: &&Walk| {
             let edges = walk.first as usize..(walk.first + walk.len) as usize;
-            let ring = self.edges[edges].iter().map(|edge| edge.start).collect();
-            polygons[walk.polygon as usize].push(ring);
-        }
-        polygons
+            self.edges[edges].iter().map(|edge| edge.start).collect()
+        };
+        let of_one = |walks: &[&Walk]| walks.iter().map(ring).collect();
+        order.chunk_by(|a, b| a.component == b.component).map(of_one).collect()
     }
 
     /// The box of all corners.

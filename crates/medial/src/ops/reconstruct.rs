@@ -23,9 +23,9 @@ use i_overlay::float::simplify::SimplifyShape;
 use super::outline::{Component, OutlineError, Turns, WRAPPED};
 use crate::axis::{Accuracy, Curve, MedialAxis, Side, Site, SiteKind};
 use crate::check::Name;
-use crate::geom::Point;
 #[cfg(feature = "union")]
 use crate::geom::Rect;
+use crate::geom::{Point, orient2d};
 
 /// Why an axis does not give back its polygons.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -96,7 +96,12 @@ pub fn polygons_of(axis: &MedialAxis) -> Result<Vec<Vec<Vec<Point>>>, Reconstruc
             polygons[polygon].resize(number + 1, Vec::new());
         }
         // Pieces of an edge that another ring touches begin at no corner of this ring.
-        let corners = ring.iter().filter(|edge| edge.part == 0).map(|edge| ends(edge, way).0);
+        let is_corner = |k: &usize| {
+            let (before, (start, end)) =
+                (&ring[(k + ring.len() - 1) % ring.len()], ends(&ring[*k], way));
+            ring[*k].part == 0 || orient2d(ends(before, way).0, start, end) != 0.0
+        };
+        let corners = (0..ring.len()).filter(is_corner).map(|k| ends(&ring[k], way).0);
         polygons[polygon][number] = corners.collect();
     }
     // Holes without area, and polygons that were empty, have no edges.

@@ -22,6 +22,7 @@ const PLAIN: Options = Options {
     repair: false,
     fill: FillRule::EvenOdd,
     dissolve: false,
+    deadline: None,
 };
 
 pub fn domain(text: &str) -> Domain {

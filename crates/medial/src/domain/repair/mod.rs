@@ -67,7 +67,7 @@ pub(super) fn repaired(
     options: &Options,
 ) -> Result<Domain, DomainError> {
     let Edges { given, strands, mut entries } = Edges::of(polygons, options.dissolve);
-    let Noded { strands, meetings, snapped } = noding::node(strands)?;
+    let Noded { strands, meetings, snapped } = noding::node(strands, options.deadline)?;
     note_meetings(&given, &meetings, &mut entries);
     let moved = strands.iter().fold(0.0_f64, |most, strand| most.max(strand.moved));
     let (pieces, uses) = pieces_of(&strands, &given);

@@ -14,6 +14,7 @@
 //! until it is.
 
 use std::ops::Range;
+use std::time::Instant;
 
 use super::crossing::{Crossing, scaled};
 use crate::domain::DomainError;
@@ -88,11 +89,15 @@ struct Cut {
 }
 
 /// Cuts strands, one for each edge.
-pub(super) fn node(edges: Vec<Strand>) -> Result<Noded, DomainError> {
+///
+/// # Errors
+/// If that would make too many of them, or the time is up.
+pub(super) fn node(edges: Vec<Strand>, deadline: Option<Instant>) -> Result<Noded, DomainError> {
     let mut meetings = Vec::new();
     let mut strands = edges.clone();
     for round in 0..ROUNDS {
-        let mut cuts = cuts(&strands, if round == 0 { Some(&mut meetings) } else { None })?;
+        let mut cuts =
+            cuts(&strands, if round == 0 { Some(&mut meetings) } else { None }, deadline)?;
         if cuts.is_empty() {
             return Ok(Noded { strands, meetings, snapped: false });
         }
@@ -103,8 +108,8 @@ pub(super) fn node(edges: Vec<Strand>) -> Result<Noded, DomainError> {
     let size = ilogb(largest) + 1;
     let mut cells = CELLS;
     while cells > 0 {
-        let strands = snapped(&edges, size - cells)?;
-        if cuts(&strands, None)?.is_empty() {
+        let strands = snapped(&edges, size - cells, deadline)?;
+        if cuts(&strands, None, deadline)?.is_empty() {
             return Ok(Noded { strands, meetings, snapped: true });
         }
         cells -= COARSER;
@@ -117,15 +122,23 @@ fn ilogb(value: f64) -> i32 {
     (value.to_bits() >> 52 & 0x7ff) as i32 - 1023
 }
 
+/// Looks at the clock now and then.
+fn check(deadline: Option<Instant>, k: u32) -> Result<(), DomainError> {
+    let is_over = k.is_multiple_of(64) && deadline.is_some_and(|end| Instant::now() >= end);
+    if is_over { Err(DomainError::TimeLimit) } else { Ok(()) }
+}
+
 /// Where strands meet, of which at least one is new.
 fn cuts(
     strands: &[Strand],
     mut meetings: Option<&mut Vec<Meeting>>,
+    deadline: Option<Instant>,
 ) -> Result<Vec<Cut>, DomainError> {
     let tree = BoundsTree::new(0, strands.len() as u32, |k| strands[k as usize].bounds());
     let mut cuts = Vec::new();
     let mut near = Near { bounds: Rect::EMPTY, found: Vec::new() };
     for (k, strand) in (0..).zip(strands).filter(|(_, strand)| strand.is_new) {
+        check(deadline, k)?;
         near.bounds = strand.bounds();
         near.found.clear();
         tree.visit(&mut near);
@@ -248,7 +261,11 @@ fn split(strands: &[Strand], cuts: &mut [Cut]) -> Result<Vec<Strand>, DomainErro
 }
 
 /// Edges rounded to a grid, through the middle of each cell that they pass in which something is.
-fn snapped(edges: &[Strand], exponent: i32) -> Result<Vec<Strand>, DomainError> {
+fn snapped(
+    edges: &[Strand],
+    exponent: i32,
+    deadline: Option<Instant>,
+) -> Result<Vec<Strand>, DomainError> {
     let cell = scaled(1.0, exponent);
     let middle = |v: f64| (v / cell).round() * cell;
     let of = |p: Point| Point::new(middle(p.x), middle(p.y));
@@ -257,6 +274,7 @@ fn snapped(edges: &[Strand], exponent: i32) -> Result<Vec<Strand>, DomainError> 
     let tree = BoundsTree::new(0, edges.len() as u32, |k| edges[k as usize].bounds());
     let mut near = Near { bounds: Rect::EMPTY, found: Vec::new() };
     for (k, s) in (0..).zip(edges) {
+        check(deadline, k)?;
         near.bounds = s.bounds();
         near.found.clear();
         tree.visit(&mut near);
@@ -366,8 +384,8 @@ mod tests {
         for size in [1.0, f64::EPSILON, 1e-9] {
             for _ in 0..60 {
                 let edges = some_edges(&mut seed, 24, size);
-                let Noded { strands, snapped, .. } = node(edges.clone()).unwrap();
-                assert!(cuts(&strands, None).unwrap().is_empty());
+                let Noded { strands, snapped, .. } = node(edges.clone(), None).unwrap();
+                assert!(cuts(&strands, None, None).unwrap().is_empty());
                 follow(&edges, &strands);
                 assert!(!snapped);
             }
@@ -380,8 +398,8 @@ mod tests {
         for exponent in [-40, -20, -6, -3, -1, 0, 1, 3] {
             for _ in 0..40 {
                 let edges = some_edges(&mut seed, 24, 1.0);
-                let strands = snapped(&edges, exponent).unwrap();
-                assert!(cuts(&strands, None).unwrap().is_empty(), "{exponent} {edges:?}");
+                let strands = snapped(&edges, exponent, None).unwrap();
+                assert!(cuts(&strands, None, None).unwrap().is_empty(), "{exponent} {edges:?}");
                 let cell = scaled(1.0, exponent);
                 let is_on = |v: f64| (v / cell).fract() == 0.0;
                 assert!(strands.iter().all(|s| is_on(s.from.x) && is_on(s.to.y)));

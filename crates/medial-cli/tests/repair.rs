@@ -1,0 +1,135 @@
+//! Features that are not valid, limits, and what is left when the command is told to end.
+
+mod common;
+
+use std::io::Write as _;
+use std::process::{Command, Stdio};
+
+use common::{medial, medial_with, names};
+use serde_json::{Value, json};
+
+const BOW: &str = "POLYGON ((0 0, 3 1, 3 0, 0 1, 0 0))\n";
+const SQUARE: &str = "POLYGON ((0 0, 2 0, 2 2, 0 2, 0 0))\n";
+
+fn report(path: &std::path::Path) -> Value {
+    serde_json::from_slice(&std::fs::read(path).unwrap()).unwrap()
+}
+
+#[test]
+fn crossings_are_repaired_and_reported() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("report.json");
+    let file = file.to_str().unwrap();
+    let run = medial_with(&["axis", "-", "--from", "wkt", "--to", "wkt", "--report", file], BOW);
+    assert_eq!(run.status, Some(0));
+    let told = "warning: <stdin>: feature 0: ring 0, vertices 0, 2: edges are cut where they cross";
+    assert!(run.errors.starts_with(told), "{}", run.errors);
+    let report = report(file.as_ref());
+    let entry = &report["features"][0]["entries"][0];
+    assert_eq!(entry["code"], "crossing");
+    assert_eq!(entry["action"], "repaired");
+    assert_eq!(entry["points"], json!([[1.5, 0.5]]));
+    assert!(entry["moved"].as_f64().unwrap() < 1e-15);
+    // Documents of a repaired feature are judged like any others.
+    let axis = folder.path().join("axis.json");
+    let bow = folder.path().join("bow.wkt");
+    std::fs::write(&bow, BOW).unwrap();
+    let (bow, axis) = (bow.to_str().unwrap(), axis.to_str().unwrap());
+    assert_eq!(medial(&["axis", bow, "-o", axis, "--side", "both", "-q"]).status, Some(0));
+    assert_eq!(medial(&["check", bow, axis, "-q"]).status, Some(0));
+    // And what is compressed gives the same axis again.
+    let small = folder.path().join("axis.maxis");
+    assert_eq!(
+        medial(&["compress", bow, "-o", small.to_str().unwrap(), "--max-error", "0", "-q"]).status,
+        Some(0)
+    );
+    let rebuilt = medial(&["reconstruct", small.to_str().unwrap(), "--to", "wkt"]);
+    assert!(rebuilt.text().starts_with("MULTIPOLYGON ((("), "{}", rebuilt.text());
+}
+
+#[test]
+fn strict_refuses_and_says_where() {
+    let run = medial_with(&["axis", "-", "--from", "wkt", "--strict"], BOW);
+    assert_eq!(run.status, Some(1));
+    assert!(run.errors.contains("ring 0, edge 0: crosses ring 0, edge 2 at (1.5, 0.5)"));
+}
+
+#[test]
+fn the_fill_rule_and_dissolving_are_options() {
+    let area = |args: &[&str], text: &str| {
+        let mut words = vec!["reconstruct", "-", "--from", "wkt", "-q"];
+        words.extend(args);
+        let run = medial_with(&words, text);
+        (run.status, run.text().matches("Polygon").count(), run.text().matches("]],[[").count())
+    };
+    // The same way round twice.
+    let nested = "POLYGON ((0 0, 9 0, 9 9, 0 9, 0 0), (2 2, 4 2, 4 4, 2 4, 2 2))";
+    let rings = |args: &[&str]| {
+        let mut words = vec!["reconstruct", "-", "--from", "wkt", "--to", "wkt", "-q"];
+        words.extend(args);
+        medial_with(&words, nested).text().matches("), (").count()
+    };
+    assert_eq!(rings(&[]), 1);
+    assert_eq!(rings(&["--fill", "nonzero"]), 0);
+    let overlapping = "MULTIPOLYGON (((0 0, 2 0, 2 2, 0 2, 0 0)), ((1 1, 3 1, 3 3, 1 3, 1 1)))";
+    assert_eq!(area(&[], overlapping).0, Some(1));
+    assert_eq!(area(&["--dissolve"], overlapping).0, Some(0));
+}
+
+#[test]
+fn features_beyond_a_limit_are_left_out_with_a_reason() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("report.json");
+    let file = file.to_str().unwrap();
+    let text = format!("{SQUARE}POLYGON ((0 0, 2 0, 3 1, 2 2, 1 3, 0 2, 0 0))\n");
+    let mut words = vec!["axis", "-", "--from", "wkt", "--to", "wkt", "--report", file, "-q"];
+    let mut with = |option: [&'static str; 2], text: &str| {
+        words.truncate(9);
+        words.extend(option);
+        let run = medial_with(&words, text);
+        let report = report(file.as_ref());
+        let codes: Vec<String> = report["features"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .flat_map(|f| f["entries"].as_array().unwrap())
+            .map(|entry| entry["code"].as_str().unwrap().to_owned())
+            .collect();
+        (run.status, codes)
+    };
+    assert_eq!(with(["--max-vertices", "5"], &text), (Some(3), vec!["max_vertices".to_owned()]));
+    // Too many crossings for any machine in that time.
+    let mut scribble = String::from("POLYGON ((");
+    let n = 20_000_u64;
+    for k in 0..=n {
+        let at = k % n;
+        let (x, y) = (at * 7919 % 10_007, at * at * 104_729 % 10_009);
+        scribble.push_str(&format!("{}{x} {y}", if k > 0 { ", " } else { "" }));
+    }
+    scribble.push_str("))\n");
+    let scribble = format!("{SQUARE}{scribble}");
+    assert_eq!(with(["--max-seconds", "0.2"], &scribble), (Some(3), vec!["time_limit".to_owned()]));
+}
+
+#[cfg(unix)]
+#[test]
+fn a_command_told_to_end_leaves_no_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let output = folder.path().join("axes.geojson");
+    let mut child = Command::new(env!("CARGO_BIN_EXE_medial"))
+        .args(["axis", "-", "--from", "wkt", "-o", output.to_str().unwrap()])
+        .stdin(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let mut input = child.stdin.take().unwrap();
+    // It waits for more.
+    writeln!(input, "{SQUARE}").unwrap();
+    while names(folder.path()).is_empty() {
+        std::thread::sleep(std::time::Duration::from_millis(5));
+    }
+    let id = child.id().to_string();
+    assert!(Command::new("kill").args(["-INT", &id]).status().unwrap().success());
+    assert_eq!(child.wait().unwrap().code(), Some(130));
+    assert!(names(folder.path()).is_empty());
+    drop(input);
+}
