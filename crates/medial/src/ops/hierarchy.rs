@@ -146,6 +146,8 @@ pub(super) struct Part {
     pub path: u32,
     /// Whether from the start of the path.
     pub forwards: bool,
+    /// The keypoint where it burns first.
+    pub from: u32,
     /// The keypoint ahead.
     pub to: u32,
     /// The parameter up to which it burns in this direction.
@@ -261,7 +263,8 @@ impl<'a> Hierarchy<'a> {
                 continue;
             }
             let limb = self.limb(&path, self.fire.times[from], reaches[from], fars[from]);
-            let part = Part { path: number, forwards, to: path.to, end: 1.0, root: None };
+            let (end, root) = (1.0, None);
+            let part = Part { path: number, forwards, from: path.from, to: path.to, end, root };
             let value = done(&part, &limb, values[from]);
             values[to] = values[to].max(value);
             if limb.far.get().0 > fars[to].0 {
@@ -281,10 +284,24 @@ impl<'a> Hierarchy<'a> {
                     continue;
                 }
                 let limb = self.limb(&path, self.fire.times[from], reaches[from], fars[from]);
-                let part = Part { path: number, forwards, to: path.to, end, root: Some(root) };
+                let root = Some(root);
+                let part = Part { path: number, forwards, from: path.from, to: path.to, end, root };
                 done(&part, &limb, values[from]);
             }
         }
+    }
+
+    /// Goes through all parts of paths that burn, those nearer to the leaves first.
+    pub(super) fn each_part(&self, mut done: impl FnMut(&Part, &Limb<'_>)) {
+        self.burn(f64::INFINITY, |part, limb, _| {
+            done(part, limb);
+            0.0
+        });
+    }
+
+    /// The side of the boundary that the axis is of.
+    pub(super) fn domain(&self) -> &Domain {
+        self.ground.domain()
     }
 
     /// The values of a measure on all paths.
@@ -365,6 +382,12 @@ impl<'a> Hierarchy<'a> {
         if measure == Measure::Prominence {
             return self.without_less_prominent(threshold);
         }
+        let (rest, lost) = self.rest(measure, threshold);
+        rest.finish(&self.fire.roots, &lost)
+    }
+
+    /// What a threshold leaves, and what is lost up to keypoints.
+    pub(super) fn rest(&self, measure: Measure, threshold: f64) -> (Rest<'_>, Vec<(u32, f64)>) {
         let mut rest = Rest::of(self.axis);
         // What is lost at a keypoint, if that is kept.
         let mut lost: Vec<(u32, f64)> = Vec::new();
@@ -387,7 +410,7 @@ impl<'a> Hierarchy<'a> {
             rest.cut(part.path, part.forwards, along);
             last
         });
-        rest.finish(&self.fire.roots, &lost)
+        (rest, lost)
     }
 }
 
@@ -445,6 +468,15 @@ impl Visitor for Farthest<'_> {
 impl Limb<'_> {
     pub fn radius(&self, u: f64) -> f64 {
         self.curve.radius_at(u)
+    }
+
+    /// The first parameter at which the radius is that large, if it is before an end.
+    pub fn reaches(&self, radius: f64, end: f64) -> Option<f64> {
+        if self.curve.radius_from() >= radius {
+            return Some(0.0);
+        }
+        let found = self.curve.parameters_at_radius(radius).into_iter().flatten();
+        found.filter(|&u| u < end).min_by(f64::total_cmp)
     }
 
     /// The parameter of the neck, if it lies before an end.
@@ -534,7 +566,7 @@ impl Limb<'_> {
     }
 
     /// The first and the last corner of the boundary behind, between the footpoints.
-    fn corners(&self) -> (u32, u32) {
+    pub fn corners(&self) -> (u32, u32) {
         let left = self.left.index();
         let first =
             if self.left.is_edge() { self.hierarchy.ground.domain().edge(left).next } else { left };

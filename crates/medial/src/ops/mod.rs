@@ -1,5 +1,6 @@
 //! What is made of an axis.
 
+mod artefacts;
 mod branches;
 mod carve;
 mod centerline;

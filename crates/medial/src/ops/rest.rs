@@ -42,6 +42,21 @@ impl<'a> Rest<'a> {
         self.kept[path as usize][usize::from(!from_start)] = to;
     }
 
+    /// What was pruned, once more.
+    pub fn again(axis: &'a MedialAxis, pruned: &Pruned) -> Self {
+        let mut kept = vec![[0.0, 0.0]; axis.paths().len()];
+        pruned.origins.iter().for_each(|origin| kept[origin.path as usize] = origin.part);
+        Self { axis, kept, error: pruned.error }
+    }
+
+    /// Removes what is removed of another rest of the same axis, too.
+    pub fn and(&mut self, other: Self) {
+        for (own, other) in self.kept.iter_mut().zip(other.kept) {
+            *own = [own[0].max(other[0]), own[1].min(other[1])];
+        }
+        self.error = self.error.max(other.error);
+    }
+
     /// What is left; of a component that is removed altogether the root. `lost` tells the excess of what
     /// was removed up to a keypoint, which counts if that stays.
     pub fn finish(self, roots: &[u32], lost: &[(u32, f64)]) -> Pruned {
