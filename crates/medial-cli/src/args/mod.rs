@@ -14,9 +14,9 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use medial::axis::{Engine, Side};
 use medial::domain::{self, FillRule};
 use medial::geom::Point;
-use medial::ops::Measure;
-use medial_io::Format;
+use medial::ops::{Hierarchy, Measure, Pruned};
 use medial_io::svg::Extra;
+use medial_io::{Feature, Format};
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
@@ -600,9 +600,27 @@ pub struct Pruning {
     /// short for --prune excess=V
     #[arg(long, value_name = "V", value_parser = not_negative, allow_negative_numbers = true)]
     pub max_error: Option<f64>,
+    /// Keep what the axis of flattened curves has that the axis of the curves has not
+    #[arg(long)]
+    pub keep_artefacts: bool,
 }
 
 impl Pruning {
+    /// Whether anything of the axis of a feature may go.
+    pub fn removes(&self, feature: &Feature) -> bool {
+        self.threshold().is_some() || (feature.curves.is_some() && !self.keep_artefacts)
+    }
+
+    /// What is left of an axis, if anything may go.
+    pub fn rest(&self, feature: &Feature, hierarchy: &Hierarchy<'_>) -> Option<Pruned> {
+        match (&feature.curves, self.threshold()) {
+            (Some(curves), threshold) if !self.keep_artefacts => {
+                Some(hierarchy.without_artefacts(&feature.polygons, curves, threshold))
+            }
+            (_, threshold) => threshold.map(|(measure, value)| hierarchy.pruned(measure, value)),
+        }
+    }
+
     /// The measure and the value below which points are removed, if any are.
     pub fn threshold(&self) -> Option<(Measure, f64)> {
         self.prune.or(self.max_error.map(|error| (Measure::Excess, error)))

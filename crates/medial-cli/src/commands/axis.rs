@@ -11,7 +11,7 @@ use medial::domain::Domain;
 use medial::engine::{self, EngineError, both_sides, exterior, interior};
 use medial::ops::{Hierarchy, Significance};
 use medial_io::svg::Options;
-use medial_io::{Drawing, Format, csv};
+use medial_io::{Drawing, Feature, Format, csv};
 use std::io::IsTerminal as _;
 use std::path::Path;
 
@@ -85,11 +85,12 @@ fn run_on(args: &AxisArgs, documents: Documents) -> Result<Status, Failure> {
             // All that is asked of a feature, or nothing.
             let axes =
                 timed(&mut stages.engine, || trace(args.engine, &args.region, domain, &options))?;
-            let axes: Vec<_> = if args.pruning.threshold().is_none() && args.measures.is_empty() {
+            let axes: Vec<_> = if !args.pruning.removes(feature) && args.measures.is_empty() {
                 axes.into_iter().map(|axis| (axis, Vec::new())).collect()
             } else {
                 timed(&mut stages.operations, || {
-                    axes.iter().map(|axis| measured(args, domain, axis)).collect::<Result<_, _>>()
+                    let measured = |axis| measured(args, feature, domain, axis);
+                    axes.iter().map(measured).collect::<Result<_, _>>()
                 })?
             };
             Ok(timed(&mut stages.write, || {
@@ -124,14 +125,14 @@ fn run_on(args: &AxisArgs, documents: Documents) -> Result<Status, Failure> {
 /// What is left of an axis, with what was asked to be measured.
 fn measured(
     args: &AxisArgs,
+    feature: &Feature,
     domain: &Domain,
     axis: &MedialAxis,
 ) -> Result<(MedialAxis, Vec<Significance>), Entry> {
     let hierarchy = Hierarchy::new(domain, axis).map_err(|error| Entry::internal(&error))?;
     let measures = args.measures.iter();
-    Ok(match args.pruning.threshold() {
-        Some((measure, value)) => {
-            let pruned = hierarchy.pruned(measure, value);
+    Ok(match args.pruning.rest(feature, &hierarchy) {
+        Some(pruned) => {
             let measured = measures.map(|&m| hierarchy.significance_of(m, &pruned)).collect();
             (pruned.axis, measured)
         }
@@ -140,10 +141,18 @@ fn measured(
 }
 
 /// What pruning leaves of an axis, if it was asked for.
-pub fn pruned(pruning: &Pruning, domain: &Domain, axis: MedialAxis) -> Result<MedialAxis, Entry> {
-    let Some((measure, value)) = pruning.threshold() else { return Ok(axis) };
+pub fn pruned(
+    pruning: &Pruning,
+    feature: &Feature,
+    domain: &Domain,
+    axis: MedialAxis,
+) -> Result<MedialAxis, Entry> {
+    if !pruning.removes(feature) {
+        return Ok(axis);
+    }
     let hierarchy = Hierarchy::new(domain, &axis).map_err(|error| Entry::internal(&error))?;
-    Ok(hierarchy.pruned(measure, value).axis)
+    let rest = pruning.rest(feature, &hierarchy).map(|pruned| pruned.axis);
+    Ok(rest.unwrap_or_else(|| axis.clone()))
 }
 
 /// The axes of a feature by an engine, one for each side that is asked for, or why it is refused.

@@ -72,7 +72,7 @@ pub fn run(args: &BranchesArgs) -> Result<Status, Failure> {
         engine: args.engine,
     };
     let input = run.open_with(&args.input, Documents::AsPolygons)?;
-    plan.run(run, &input, |_, domain, stages, options| {
+    plan.run(run, &input, |feature, domain, stages, options| {
         let tolerance = args.tolerance.unwrap_or_else(|| domain_tolerance(domain));
         if args.limbs {
             let sides =
@@ -87,7 +87,7 @@ pub fn run(args: &BranchesArgs) -> Result<Status, Failure> {
         timed(&mut stages.operations, || {
             let mut records = Vec::new();
             for axis in axes {
-                let axis = pruned(&args.pruning, domain, axis)?;
+                let axis = pruned(&args.pruning, feature, domain, axis)?;
                 for (number, branch) in branches(&axis).iter().enumerate() {
                     match args.by {
                         Cut::Branch => {

@@ -41,11 +41,15 @@ pub fn run(args: &ReconstructArgs) -> Result<Status, Failure> {
         Opened::Axes(input) => return of_documents(args, &plan, &input),
         Opened::Polygons(polygons) => polygons,
     };
-    plan.run(run, &input, |_, domain, stages, options| {
+    plan.run(run, &input, |feature, domain, stages, options| {
         let axis = timed(&mut stages.engine, || interior(domain, args.engine, options))
             .map_err(|error| Entry::unfinished(&error))?;
         timed(&mut stages.operations, || {
-            let axis = pruned(&args.pruning, domain, axis)?;
+            // Without a threshold polygons come back as they are, curves or not.
+            let axis = match args.pruning.threshold() {
+                Some(_) => pruned(&args.pruning, feature, domain, axis)?,
+                None => axis,
+            };
             let original = boundary(domain);
             Ok(vec![rebuilt(args, &axis, Some(&original))?])
         })
