@@ -9,7 +9,7 @@ mod sketch;
 mod tally;
 
 pub use polygons::any_polygons;
-pub use properties::{check_axis, check_domain};
+pub use properties::{check_axis, check_domain, check_repair};
 pub use shapes::{FAMILIES, Shape, shape};
 pub use sketch::to_wkt;
 pub use tally::Tally;

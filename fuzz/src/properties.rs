@@ -2,7 +2,7 @@
 
 use medial::axis::MedialAxis;
 use medial::check;
-use medial::domain::{Corner, Domain, DomainError, Options};
+use medial::domain::{Corner, Domain, DomainError, FillRule, Options};
 use medial::engine::path_tracing;
 use medial::geom::{Point, orient2d};
 
@@ -47,6 +47,56 @@ pub fn check_domain(polygons: &Polygons) -> Result<bool, String> {
         }
     }
     Ok(default.is_ok())
+}
+
+/// What is wrong with the domains that repair makes of polygons, by either fill rule and dissolved; says
+/// whether it makes one by the even-odd rule.
+///
+/// # Errors
+/// What is wrong, with the polygons as WKT.
+pub fn check_repair(polygons: &Polygons) -> Result<bool, String> {
+    let mut is_any = false;
+    for (fill, dissolve) in
+        [(FillRule::EvenOdd, false), (FillRule::EvenOdd, true), (FillRule::NonZero, false)]
+    {
+        let options = Options { repair: true, fill, dissolve, ..Options::default() };
+        let told = match Domain::from_polygons(polygons, &options) {
+            Ok(domain) => {
+                is_any |= !dissolve && fill == FillRule::EvenOdd;
+                repair_faults(&domain)
+            }
+            Err(error) => match error.code() {
+                "crossing" | "overlap" | "bad_nesting" | "internal" => Some(error.to_string()),
+                "polygons_overlap" if dissolve => Some(error.to_string()),
+                _ => None,
+            },
+        };
+        if let Some(text) = told {
+            return Err(format!("{fill:?}, dissolve {dissolve}: {text}\n{}", to_wkt(polygons)));
+        }
+    }
+    Ok(is_any)
+}
+
+fn repair_faults(domain: &Domain) -> Option<String> {
+    let again = match Domain::from_polygons(&domain.polygons(), &Options::default()) {
+        Ok(again) => again,
+        Err(error) => return Some(format!("once more: {error}")),
+    };
+    let corners = |domain: &Domain| {
+        let turns = domain.edges().iter().filter(|edge| edge.corner != Corner::Straight);
+        let mut corners: Vec<Point> = turns.map(|edge| edge.start).collect();
+        corners.sort_by(|a, b| a.lexicographic(*b));
+        corners
+    };
+    if corners(domain) != corners(&again) {
+        return Some("repair is not idempotent".to_owned());
+    }
+    let axis = match path_tracing(domain) {
+        Ok(axis) => axis,
+        Err(error) => return Some(error.to_string()),
+    };
+    check::defects(domain, &axis).defects.first().map(ToString::to_string)
 }
 
 /// What is wrong with the axis of a shape and with that of its mirror image.

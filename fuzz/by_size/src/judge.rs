@@ -192,7 +192,10 @@ fn shared_fault(shape: &Shape, axis: &MedialAxis, threads: NonZeroUsize) -> Opti
 }
 
 fn build(shape: &Shape) -> Result<Domain, DomainError> {
-    Domain::from_polygons(&shape.polygons, &Options { regroup: shape.regroup, ..Options::default() })
+    Domain::from_polygons(
+        &shape.polygons,
+        &Options { regroup: shape.regroup, ..Options::default() },
+    )
 }
 
 fn guarded(work: impl FnOnce() -> Outcome) -> Outcome {
