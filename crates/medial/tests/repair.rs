@@ -7,6 +7,7 @@ use medial::domain::{Corner, Domain, FillRule, Options, Repair};
 use medial::engine::path_tracing;
 use medial::geom::Point;
 use support::random::{self, Family, Ground, Random};
+use support::shapes;
 
 type Polygons = Vec<Vec<Vec<Point>>>;
 
@@ -421,4 +422,15 @@ fn strict_refuses_what_would_be_repaired() {
         let error = Domain::from_polygons(&bow, &Options { fill, ..strict }).unwrap_err();
         assert_eq!(error.code(), "crossing");
     }
+}
+
+/// Edges that are equal but for an ulp cross wherever rounding lets them, in more places each time they are
+/// cut there.
+#[test]
+fn a_bundle_of_edges_is_snapped_soon() {
+    let polygons = shapes::polygons("../issue_7_bundle_of_edges_within_an_ulp.wkt");
+    let domain = repaired(&polygons);
+    assert_eq!(count(&domain, Repair::Snapped), 1);
+    check_repair(&mut Random(1), &polygons, &REPAIR, &domain);
+    assert!(domain.report().moved() < 1e-11);
 }

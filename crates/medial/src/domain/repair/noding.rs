@@ -8,10 +8,10 @@
 //! Crossings are computed exactly and rounded to the nearest doubles, and edges are cut there, and where
 //! an end lies on them. A strand between rounded places is no part of its edge any more, but within an ulp
 //! or so of it, and may meet something else: it is asked again. Mostly the second or the third round finds
-//! nothing. Where [`ROUNDS`] are not enough, all is begun anew by snap rounding (Hobby 1999): on a grid,
-//! ends and crossings go to the middle of their cells, and so does each edge that passes through a cell in
-//! which one of them is. In theory one pass is enough; it is asked again as well, and the grid gets coarser
-//! until it is.
+//! nothing. Where [`ROUNDS`] are not enough, or strands become many, all is begun anew by snap rounding
+//! (Hobby 1999): on a grid, ends and crossings go to the middle of their cells, and so does each edge that
+//! passes through a cell in which one of them is. In theory one pass is enough; it is asked again as well,
+//! and the grid gets coarser until it is.
 
 use std::ops::Range;
 use std::time::Instant;
@@ -22,6 +22,10 @@ use crate::geom::{BoundsTree, Point, Rect, U, Visitor, order_key, orient2d};
 
 /// How often edges are cut before they are snapped to a grid.
 const ROUNDS: u32 = 12;
+
+/// How many times more strands there may be than after the first round: bundles of edges within an ulp of
+/// one another cross again and again.
+const GROWTH: usize = 4;
 
 /// Most strands.
 const MOST: usize = 1 << 24;
@@ -94,7 +98,7 @@ struct Cut {
 /// If that would make too many of them, or the time is up.
 pub(super) fn node(edges: Vec<Strand>, deadline: Option<Instant>) -> Result<Noded, DomainError> {
     let mut meetings = Vec::new();
-    let mut strands = edges.clone();
+    let (mut strands, mut first) = (edges.clone(), 0);
     for round in 0..ROUNDS {
         let mut cuts =
             cuts(&strands, if round == 0 { Some(&mut meetings) } else { None }, deadline)?;
@@ -102,6 +106,11 @@ pub(super) fn node(edges: Vec<Strand>, deadline: Option<Instant>) -> Result<Node
             return Ok(Noded { strands, meetings, snapped: false });
         }
         strands = split(&strands, &mut cuts)?;
+        if round == 0 {
+            first = strands.len();
+        } else if strands.len() > GROWTH * first {
+            break;
+        }
     }
     let largest = edges.iter().flat_map(|s| [s.from, s.to]);
     let largest = largest.fold(0.0_f64, |most, p| most.max(p.x.abs()).max(p.y.abs()));
