@@ -428,7 +428,7 @@ fn strict_refuses_what_would_be_repaired() {
 /// cut there.
 #[test]
 fn a_bundle_of_edges_is_snapped_soon() {
-    let polygons = shapes::polygons("../issue_7_bundle_of_edges_within_an_ulp.wkt");
+    let polygons = shapes::polygons("../issue_7_bundle_of_edges_within_an_ulp");
     let domain = repaired(&polygons);
     assert_eq!(count(&domain, Repair::Snapped), 1);
     check_repair(&mut Random(1), &polygons, &REPAIR, &domain);
