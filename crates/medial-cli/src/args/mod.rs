@@ -633,10 +633,13 @@ impl Region {
 /// Arguments of every command that reads polygons.
 #[derive(Debug, Args)]
 pub struct Common {
-    /// Format of the polygons: geojson, geojsonl, wkt, wkb, rings; by default that of the
-    /// extension, else told by the content
+    /// Format of the polygons: geojson, geojsonl, wkt, wkb, rings, gpkg, shp, fgb, parquet; by default
+    /// that of the extension, else told by the content
     #[arg(long, value_name = "FORMAT")]
     pub from: Option<Format>,
+    /// Layer to read, of a GeoPackage with several
+    #[arg(long, value_name = "NAME")]
+    pub layer: Option<String>,
     /// Refuse what would be repaired
     #[arg(long)]
     pub strict: bool,

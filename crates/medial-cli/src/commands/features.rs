@@ -10,7 +10,7 @@ use crate::progress::Progress;
 use crate::report::{self, Entry, FeatureReport, Report};
 use crate::timings::{self, Stages, timed};
 use medial::domain::{Domain, Options};
-use medial_io::{Error, Feature, FeatureError, Json, Layer, Part};
+use medial_io::{Error, Feature, FeatureError, Json, Layer, Part, ReadOptions};
 use std::num::NonZeroUsize;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
@@ -70,7 +70,8 @@ impl<'a> Run<'a> {
 
     /// Opens an input of polygons or axes.
     pub fn opened(&mut self, path: &Path) -> Result<Opened, Failure> {
-        timed(&mut self.stages.read, || Opened::new(path, self.common.from))
+        let options = ReadOptions { layer: self.common.layer.clone(), ..ReadOptions::default() };
+        timed(&mut self.stages.read, || Opened::new(path, self.common.from, &options))
     }
 
     /// Calls `work` for each valid feature, `at_once` at a time, then `done` with the results and
