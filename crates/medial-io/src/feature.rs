@@ -140,6 +140,12 @@ impl Part<'_> {
     }
 }
 
+impl From<Result<Feature, FeatureError>> for Part<'_> {
+    fn from(read: Result<Feature, FeatureError>) -> Self {
+        Self::of_read(read)
+    }
+}
+
 impl<'a> Layer<'a> {
     /// A layer of features that are read where they are found.
     pub(crate) fn new(

@@ -5,6 +5,3 @@ mod write;
 
 pub use read::open;
 pub use write::write;
-
-#[cfg(test)]
-mod tests;

@@ -6,6 +6,3 @@ mod write;
 
 pub use read::open;
 pub use write::write;
-
-#[cfg(test)]
-mod tests;

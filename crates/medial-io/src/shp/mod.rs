@@ -26,6 +26,3 @@ mod kind {
 
 /// Bytes of the header of `.shp` and `.shx`.
 const HEADER: usize = 100;
-
-#[cfg(test)]
-mod tests;
