@@ -121,9 +121,32 @@ impl Crs {
     /// Its well-known text, as it was read or as EPSG defines it (version 1).
     #[must_use]
     pub fn wkt(&self) -> Option<Cow<'_, str>> {
-        if let Some(wkt) = &self.wkt {
-            return Some(wkt.as_str().into());
+        self.wkt.as_deref().map(Cow::Borrowed).or_else(|| self.defined())
+    }
+
+    /// Its well-known text of version 1, which is the one that older formats know.
+    #[must_use]
+    pub fn first_wkt(&self) -> Option<Cow<'_, str>> {
+        const SECOND: [&str; 8] = [
+            "PROJCRS",
+            "GEOGCRS",
+            "GEODCRS",
+            "COMPOUNDCRS",
+            "BOUNDCRS",
+            "ENGCRS",
+            "VERTCRS",
+            "DERIVEDPROJCRS",
+        ];
+        let word =
+            |wkt: &str| wkt.split(['[', '(']).next().unwrap_or_default().trim().to_uppercase();
+        match &self.wkt {
+            Some(wkt) if !SECOND.contains(&word(wkt).as_str()) => Some(wkt.as_str().into()),
+            _ => self.defined(),
         }
+    }
+
+    /// The text by which EPSG defines it.
+    fn defined(&self) -> Option<Cow<'_, str>> {
         let code = u16::try_from(self.epsg_code()?).ok()?;
         crs_definitions::from_code(code).map(|found| found.wkt.into())
     }
@@ -328,6 +351,8 @@ mod tests {
         let second = "GEOGCRS[\"WGS 84\",DATUM[\"d\",ID[\"EPSG\",6326]],ID[\"EPSG\",4326]]";
         assert_eq!(Crs::of_wkt(second).epsg_code(), Some(4326));
         assert!(Crs::of_wkt(second).is_geographic());
+        assert!(Crs::of_wkt(second).first_wkt().is_some_and(|wkt| wkt.starts_with("GEOGCS")));
+        assert!(Crs::of_wkt("PROJCRS[\"mine\"]").first_wkt().is_none());
     }
 
     #[test]

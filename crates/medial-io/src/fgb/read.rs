@@ -88,11 +88,14 @@ fn index_bytes(count: u64, node_size: u16) -> Option<u64> {
     }
     let size = u64::from(node_size.max(2));
     let (mut level, mut nodes) = (count, count);
-    while level > 1 {
+    // A single feature has a root of its own.
+    loop {
         level = level.div_ceil(size);
         nodes = nodes.checked_add(level)?;
+        if level == 1 {
+            return nodes.checked_mul(NODE_BYTES);
+        }
     }
-    nodes.checked_mul(NODE_BYTES)
 }
 
 fn reference(header: &Header) -> Option<Crs> {

@@ -92,6 +92,8 @@ impl ToSql for Cell {
 /// If the system fails.
 pub fn write(path: &Path, table: &Table<'_>, rows: Rows<'_>) -> Result<Written, WriteError> {
     let mut written = Written::default();
+    // What was there is no part of it.
+    std::fs::File::create(path)?;
     let mut database = Connection::open(path)?;
     // The file is not anybody's until it is complete, so there is nothing to go back to.
     database.execute_batch(
@@ -233,7 +235,7 @@ fn type_of(schema: &Schema) -> &'static str {
 /// Adds the reference system, and WGS 84, which every GeoPackage has; gives the number of the system.
 fn reference(database: &Connection, crs: Option<&Crs>) -> Result<i32, WriteError> {
     let add = |srs: i32, organization: &str, code: i32, crs: &Crs| {
-        let wkt = crs.wkt();
+        let wkt = crs.first_wkt().or_else(|| crs.wkt());
         database.execute(
             "INSERT INTO gpkg_spatial_ref_sys VALUES (?, ?, ?, ?, ?, NULL)",
             params![

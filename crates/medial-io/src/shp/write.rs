@@ -92,12 +92,13 @@ pub fn write(path: &Path, table: &Table<'_>, rows: Rows<'_>) -> Result<Written, 
     finish(places, kind, (HEADER / 2) as u64 + 4 * n, extent, heights)?;
     values.flush()?;
     std::fs::write(beside("cpg"), "UTF-8")?;
-    let wkt = table.crs.and_then(|crs| crs.wkt());
+    let wkt = table.crs.and_then(|crs| crs.first_wkt());
     if let Some(wkt) = &wkt {
         std::fs::write(beside("prj"), wkt.as_bytes())?;
     } else if let Some(crs) = table.crs {
         written.warnings.push(format!(
-            "no .prj is written, as the text of the reference system {crs} is not known"
+            "no .prj is written, as the well-known text (version 1) of the reference system {crs} is not \
+             known"
         ));
     }
     for (column, cut) in columns.iter().zip(cut).filter(|(_, cut)| *cut > 0) {
