@@ -6,6 +6,7 @@ mod polygons;
 mod properties;
 mod shapes;
 mod sketch;
+pub mod tables;
 mod tally;
 
 pub use polygons::any_polygons;
