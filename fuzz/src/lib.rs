@@ -6,7 +6,6 @@ mod polygons;
 mod properties;
 mod shapes;
 mod sketch;
-pub mod tables;
 mod tally;
 
 pub use polygons::any_polygons;

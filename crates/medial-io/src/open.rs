@@ -36,7 +36,7 @@ pub fn open<'a>(format: Format, path: &Path, options: &ReadOptions) -> Result<La
                 );
                 Err(Error::Layer { why })
             }
-            // As long as is needed.
+            #[expect(clippy::map_identity, reason = "the items are given a shorter lifetime")]
             _ => Ok(Layer {
                 crs: layer.crs,
                 len: layer.len,

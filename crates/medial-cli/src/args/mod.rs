@@ -115,9 +115,8 @@ pub struct AxisArgs {
     /// File to write; by default, and for `-`, standard output
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
-    /// Format of the output: geojson, geojsonl, json (axis document), wkt, wkb, csv, gpkg, shp, fgb, parquet, svg, png;
-    /// by
-    /// default that of the extension, on standard output geojson
+    /// Format of the output: geojson, geojsonl, json (axis document), wkt, wkb, csv, gpkg, shp, fgb,
+    /// parquet, svg, png; by default that of the extension, on standard output geojson
     #[arg(long, value_name = "FORMAT")]
     pub to: Option<Format>,
     /// Who computes the axis: path_tracing, divide_and_conquer

@@ -23,11 +23,14 @@ struct Shape<'a> {
     coordinates: &'a RawValue,
 }
 
+/// The properties of a feature, and its geometry.
+type Found = (Vec<(String, Cell)>, Option<Geometry>);
+
 /// The properties and the geometry in a line.
 ///
 /// # Errors
 /// If it is no feature, or its geometry is a collection.
-pub(super) fn read(line: &[u8]) -> serde_json::Result<(Vec<(String, Cell)>, Option<Geometry>)> {
+pub(super) fn read(line: &[u8]) -> serde_json::Result<Found> {
     let line: Line = serde_json::from_slice(line)?;
     let cells = line.properties.0.into_iter().map(|(name, value)| (name, cell(&value)));
     let geometry = line.geometry.map(|shape| shape.read()).transpose()?;
