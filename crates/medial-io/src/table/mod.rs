@@ -1,7 +1,7 @@
 //! Tables of features on their way into a file that must know its columns beforehand.
 //!
 //! Results arrive as lines of GeoJSON. A [`Spool`] keeps them in a temporary file while it learns the
-//! [`Schema`], and [`write`] makes the file of them, row after row.
+//! [`Schema`], and [`write()`] makes the file of them, row after row.
 
 mod geometry;
 mod line;
@@ -64,7 +64,7 @@ impl WriteError {
     }
 }
 
-/// The files that [`write`] writes beside a path, with their extensions, whether it succeeds or not.
+/// The files that [`write()`] writes beside a path, with their extensions, whether it succeeds or not.
 #[must_use]
 pub fn beside(format: Format, path: &Path) -> Vec<(PathBuf, &'static str)> {
     match format {
