@@ -1,10 +1,10 @@
 use crate::failure::{Failure, plain};
 use medial_io::axis_document::{self, AxisDocument};
-use medial_io::{Content, Error, Format, Layer};
+use medial_io::{Content, Error, Format, Layer, ReadOptions};
 use std::cell::RefCell;
 use std::fs::File;
 use std::io::{self, BufRead, BufReader, Cursor, Read as _};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// An input, read whole.
 pub struct Input {
@@ -41,6 +41,8 @@ pub enum Documents {
 /// The features of an input.
 enum Features {
     Whole(Vec<u8>),
+    /// In a file that is read by its path.
+    File(PathBuf, ReadOptions),
     /// Axis documents.
     Axes(Vec<u8>),
     /// Not read yet, or being read.
@@ -79,15 +81,22 @@ impl Opened {
     /// Opens a file, or standard input for `-`. The format is the one asked for, else that of the
     /// extension, else told by the content. What has one feature after the other is read later, as it is
     /// needed.
-    pub fn new(path: &Path, from: Option<Format>) -> Result<Self, Failure> {
+    ///
+    /// A layer can be chosen of what has layers; else it must have the name of the file.
+    pub fn new(path: &Path, from: Option<Format>, options: &ReadOptions) -> Result<Self, Failure> {
         let name = name(path);
+        let known = from.or_else(|| Format::from_path(path).ok());
+        if let Some(format) = known.filter(|format| format.is_table()) {
+            return table(path, name, format, options);
+        }
+        let stem = path.file_stem().unwrap_or_default();
         let failed = |error: io::Error| unreadable(&name, &error);
         let mut source = open(path).map_err(failed)?;
         let mut bytes = Vec::new();
-        let format = match from.or_else(|| Format::from_path(path).ok()) {
+        let format = match known {
             Some(format @ (Format::Csv | Format::Svg | Format::Png)) => {
                 let why = format!(
-                    "the format {format} is written only; polygons come as geojson, geojsonl, wkt, wkb or rings"
+                    "the format {format} is written only; polygons come as geojson, geojsonl, wkt, wkb, rings, gpkg, shp, fgb or parquet"
                 );
                 let usage = from.is_some();
                 return Err(if usage { Failure::Usage(why) } else { Failure::file(&name, why) });
@@ -96,6 +105,9 @@ impl Opened {
             _ => {
                 bytes = beginning(&mut source).map_err(failed)?;
                 match Format::of_content(&bytes) {
+                    Ok(Content::Polygons(format)) if format.is_table() => {
+                        return table(path, name, format, options);
+                    }
                     Ok(Content::Polygons(format)) if format.is_streamed() => format,
                     _ => {
                         source.read_to_end(&mut bytes).map_err(failed)?;
@@ -110,6 +122,12 @@ impl Opened {
                 }
             }
         };
+        if let Some(layer) = options.layer.as_deref()
+            && *stem != *layer
+        {
+            let why = format!("--layer {layer}: the format {format} has no layers with names");
+            return Err(Failure::Usage(why));
+        }
         let content = if format.is_streamed() {
             let source: Source = Box::new(Cursor::new(bytes).chain(source));
             Features::Stream(RefCell::new(Some(source)))
@@ -143,14 +161,34 @@ impl Polygons {
     pub fn layer(&self) -> Result<Layer<'_>, Failure> {
         let layer = match &self.content {
             Features::Whole(bytes) => medial_io::read(self.format, bytes),
+            Features::File(path, options) => medial_io::open(self.format, path, options),
             Features::Axes(bytes) => axis_document::of_bytes(bytes).map(axis_document::polygons),
             Features::Stream(source) => {
                 let source = source.take().unwrap_or_else(|| Box::new(io::empty()));
                 medial_io::read_stream(self.format, source)
             }
         };
-        layer.map_err(|error| Failure::file(&self.name, error))
+        layer.map_err(|error| match error {
+            Error::Layer { why } => Failure::Usage(format!("{}: {why}", self.name)),
+            Error::Interrupted { source } => unreadable(&self.name, &source),
+            error => Failure::file(&self.name, error),
+        })
     }
+}
+
+/// An input that is read by its path.
+fn table(
+    path: &Path,
+    name: String,
+    format: Format,
+    options: &ReadOptions,
+) -> Result<Opened, Failure> {
+    if path.as_os_str() == "-" {
+        let why = format!("{format} is read from a file, not from standard input; name the file");
+        return Err(Failure::Usage(why));
+    }
+    let content = Features::File(path.to_owned(), options.clone());
+    Ok(Opened::Polygons(Polygons { name, format, content }))
 }
 
 fn open(path: &Path) -> io::Result<Source> {

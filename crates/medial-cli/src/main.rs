@@ -14,6 +14,7 @@ mod parallel;
 mod progress;
 mod report;
 mod sizes;
+mod table;
 mod timings;
 mod verdicts;
 

@@ -50,6 +50,22 @@ impl Output {
         Ok(Self::File { text: io::BufWriter::with_capacity(BUFFER, file), path })
     }
 
+    /// Where a file is while it is not complete, for who writes it by its path.
+    pub fn place(&self) -> Option<&Path> {
+        match self {
+            Self::File { text, .. } => Some(text.get_ref().path()),
+            _ => None,
+        }
+    }
+
+    /// Where a file is going to be.
+    pub fn target(&self) -> Option<&Path> {
+        match self {
+            Self::File { path, .. } => Some(path),
+            _ => None,
+        }
+    }
+
     /// Adds to the results; on standard output they are there for whoever reads it.
     pub fn write(&mut self, bytes: &[u8]) -> Result<(), Failure> {
         let result = match self {

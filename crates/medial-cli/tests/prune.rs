@@ -41,7 +41,8 @@ fn every_measure_is_known() {
 #[test]
 fn what_is_pruned_to_a_point_is_a_point() {
     let source = r#"{"type": "Feature", "properties": {"kind": "shed"}, "geometry": {"type": "Polygon",
-        "coordinates": [[[0, 0], [6, 0], [6, 2], [0, 2], [0, 0]]]}}"#;
+        "coordinates": [[[0, 0], [6, 0], [6, 2], [0, 2], [0, 0]]]},
+        "crs": {"type": "name", "properties": {"name": "EPSG:3857"}}}"#;
     let run = medial_with(&["prune", "-", "--from", "geojson", "--max-error", "9"], source);
     assert_eq!((run.status, run.errors.as_str()), (Some(0), ""));
     let all: Value = serde_json::from_str(run.text()).unwrap();

@@ -102,7 +102,7 @@ fn what_a_diagram_has_no_form_for_is_refused() {
     for (args, expected) in [
         (
             ["voronoi", "-", "--to", "csv"],
-            "error: diagrams are written as geojson, geojsonl, json or svg, not as csv\n",
+            "error: diagrams are written as geojson, geojsonl, json, svg, gpkg, shp, fgb or parquet, not as csv\n",
         ),
         (
             ["voronoi", "-", "--tolerance=-1", "-q"],

@@ -38,6 +38,18 @@ pub enum Error {
         /// The format.
         format: Format,
     },
+    /// A file is not of its format, or holds nothing to read.
+    #[error("{why}")]
+    File {
+        /// What is wrong with it, and what to do.
+        why: String,
+    },
+    /// The layer that is asked for is not there.
+    #[error("{why}")]
+    Layer {
+        /// Which layers there are.
+        why: String,
+    },
     /// A value is well written but makes no sense.
     #[error("{place}: {why}")]
     Value {

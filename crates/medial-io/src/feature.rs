@@ -1,4 +1,4 @@
-use crate::{Error, FeatureError};
+use crate::{Crs, Error, FeatureError};
 use medial::domain::{Curves, FillRule};
 use medial::geom::Point;
 use serde_json::value::RawValue;
@@ -46,8 +46,8 @@ pub struct Note {
 ///
 /// [`Layer::parts`] gives them unread, for several threads to read.
 pub struct Layer<'a> {
-    /// The coordinate reference system of the layer, as its format writes it.
-    pub crs: Option<Json>,
+    /// The coordinate reference system of the layer, if it has one.
+    pub crs: Option<Crs>,
     /// The number of features, where it is known beforehand.
     pub len: Option<usize>,
     pub(crate) parts: Box<dyn Iterator<Item = Part<'a>> + Send + 'a>,
@@ -70,6 +70,11 @@ enum State<'a> {
         before: usize,
         index: usize,
         read: fn(&str, usize) -> Result<Feature, FeatureError>,
+    },
+    /// A row of a table, of about so many bytes.
+    Row {
+        size: usize,
+        read: Box<dyn FnOnce() -> Result<Feature, FeatureError> + Send>,
     },
 }
 
@@ -97,6 +102,14 @@ impl Part<'_> {
         Self(State::Alone { text, before, index, read })
     }
 
+    /// The feature in a row of a table that takes about so many bytes.
+    pub(crate) fn of_row(
+        size: usize,
+        read: impl FnOnce() -> Result<Feature, FeatureError> + Send + 'static,
+    ) -> Self {
+        Self(State::Row { size, read: Box::new(read) })
+    }
+
     /// About as many bytes as the feature has as text.
     #[must_use]
     pub fn size(&self) -> usize {
@@ -104,6 +117,7 @@ impl Part<'_> {
             State::Read(read) => read.as_ref().as_ref().map_or(0, Feature::size),
             State::Unread { part, .. } => part.len(),
             State::Alone { text, .. } => text.len(),
+            State::Row { size, .. } => *size,
         }
     }
 
@@ -121,7 +135,14 @@ impl Part<'_> {
                     error
                 })
             }
+            State::Row { read, .. } => read(),
         }
+    }
+}
+
+impl From<Result<Feature, FeatureError>> for Part<'_> {
+    fn from(read: Result<Feature, FeatureError>) -> Self {
+        Self::of_read(read)
     }
 }
 

@@ -12,6 +12,8 @@ pub enum Format {
     GeoJson,
     /// One GeoJSON feature or geometry a line.
     GeoJsonLines,
+    /// A GeoJSON text sequence [RFC 8142]: the same, a record separator before each line.
+    GeoJsonSeq,
     /// The axis document: JSON Lines.
     Json,
     /// Well-known text, one geometry after the other.
@@ -30,11 +32,20 @@ pub enum Format {
     Maxis,
     /// A program for a machine tool.
     GCode,
+    /// GeoPackage.
+    Gpkg,
+    /// Shapefile, with the files that belong to it.
+    Shp,
+    /// FlatGeobuf.
+    Fgb,
+    /// GeoParquet.
+    Parquet,
 }
 
 const NAMES: &[(Format, &str, &[&str])] = &[
     (Format::GeoJson, "geojson", &["geojson"]),
-    (Format::GeoJsonLines, "geojsonl", &["geojsonl", "geojsons", "geojsonseq", "ndgeojson"]),
+    (Format::GeoJsonLines, "geojsonl", &["geojsonl", "ndgeojson"]),
+    (Format::GeoJsonSeq, "geojsonseq", &["geojsonseq", "geojsons"]),
     (Format::Json, "json", &["json", "jsonl", "ndjson"]),
     (Format::Wkt, "wkt", &["wkt"]),
     (Format::Wkb, "wkb", &["wkb"]),
@@ -44,6 +55,10 @@ const NAMES: &[(Format, &str, &[&str])] = &[
     (Format::Rings, "rings", &["rings"]),
     (Format::Maxis, "maxis", &["maxis"]),
     (Format::GCode, "gcode", &["gcode", "nc", "ngc", "tap"]),
+    (Format::Gpkg, "gpkg", &["gpkg"]),
+    (Format::Shp, "shp", &["shp"]),
+    (Format::Fgb, "fgb", &["fgb"]),
+    (Format::Parquet, "parquet", &["parquet", "geoparquet"]),
 ];
 
 /// A word or a file extension that names no format.
@@ -66,7 +81,21 @@ impl Format {
     /// Whether its features are read one by one, as they arrive.
     #[must_use]
     pub fn is_streamed(self) -> bool {
-        matches!(self, Self::GeoJsonLines | Self::Wkt)
+        matches!(self, Self::GeoJsonLines | Self::GeoJsonSeq | Self::Wkt)
+    }
+
+    /// Whether it is a table of features in a file of its own, or several: read by
+    /// [`open`](crate::open), written by [`table::write`](crate::table::write).
+    #[must_use]
+    pub fn is_table(self) -> bool {
+        matches!(self, Self::Gpkg | Self::Shp | Self::Fgb | Self::Parquet)
+    }
+
+    /// The format in which features are encoded on their way into this one: GeoJSON lines for tables and
+    /// text sequences, else itself.
+    #[must_use]
+    pub fn encoding(self) -> Self {
+        if self.is_table() || self == Self::GeoJsonSeq { Self::GeoJsonLines } else { self }
     }
 
     /// The format a file's extension stands for; letter case does not matter.
@@ -88,6 +117,9 @@ impl Format {
     /// # Errors
     /// If the input is empty or begins like none of them.
     pub fn of_content(bytes: &[u8]) -> Result<Content, Error> {
+        if let Some(format) = of_table(bytes) {
+            return Ok(Content::Polygons(format));
+        }
         if let [0 | 1, ..] = bytes {
             return Ok(Content::Polygons(Self::Wkb));
         }
@@ -117,6 +149,17 @@ pub enum Content {
     Axes,
     /// Compressed axes.
     CompressedAxes,
+}
+
+/// The format of a table that begins so.
+fn of_table(bytes: &[u8]) -> Option<Format> {
+    let starts: [(Format, &[u8]); 4] = [
+        (Format::Gpkg, b"SQLite format 3\0"),
+        (Format::Shp, &[0, 0, 0x27, 0x0a, 0, 0, 0, 0]),
+        (Format::Fgb, b"fgb\x03fgb"),
+        (Format::Parquet, b"PAR1"),
+    ];
+    starts.iter().find(|(_, start)| bytes.starts_with(start)).map(|(format, _)| *format)
 }
 
 fn of_json(text: &str, start: &str) -> Result<Content, Error> {
@@ -164,8 +207,8 @@ mod tests {
         assert_eq!(of("a/b.GeoJSON"), Some(Format::GeoJson));
         assert_eq!(of("axes.jsonl"), Some(Format::Json));
         assert_eq!(of("rings"), None);
-        let error = Format::from_path(Path::new("a.shp")).unwrap_err();
-        assert!(error.to_string().starts_with("`shp` is no known format; known are geojson, "));
+        let error = Format::from_path(Path::new("a.xyz")).unwrap_err();
+        assert!(error.to_string().starts_with("`xyz` is no known format; known are geojson, "));
     }
 
     #[test]

@@ -1,7 +1,8 @@
 //! Formats for the medial axis toolkit.
 //!
-//! One module a format, text or bytes in and out; no file is touched here.
-//! [`read`] gives the features of an input in any format that holds polygons,
+//! One module a format, text or bytes in and out; only the tables of features ([`table`]: GeoPackage,
+//! Shapefile, FlatGeobuf, GeoParquet) are files here.
+//! [`read`] gives the features of an input in any format that holds polygons, [`open`] those of a file,
 //! [`axis_document::read`] the axes of a document, [`maxis::read`] those of a compressed file, and each format's `write` the rest.
 //!
 //! ```
@@ -21,11 +22,15 @@
 //!
 //! Every double is read exactly and written as the shortest text that reads back to it.
 
+mod apart;
+mod attribute;
+mod crs;
 mod error;
 mod feature;
 mod format;
 mod json;
 mod number;
+mod open;
 mod options;
 mod path;
 mod stream;
@@ -36,23 +41,30 @@ mod samples;
 
 pub mod axis_document;
 pub mod csv;
+pub mod fgb;
 pub mod gcode;
 pub mod geojson;
+pub mod gpkg;
 pub mod limb_document;
 pub mod location_document;
 pub mod maxis;
 pub mod offset_document;
+pub mod parquet;
 pub mod png;
 pub mod record;
 pub mod rings;
+pub mod shp;
 pub mod svg;
+pub mod table;
 pub mod voronoi_document;
 pub mod wkb;
 pub mod wkt;
 
+pub use crs::Crs;
 pub use error::{Error, FeatureError};
 pub use feature::{Feature, Json, Layer, Note, Part, Polygons};
 pub use format::{Content, Format, UnknownFormat};
+pub use open::open;
 pub use options::ReadOptions;
 pub use path::{Drawing, default_tolerance, domain_tolerance};
 pub use stream::read_stream;
@@ -66,7 +78,7 @@ pub use text::text;
 pub fn read(format: Format, bytes: &[u8]) -> Result<Layer<'_>, Error> {
     match format {
         Format::GeoJson => geojson::read(text(bytes)?),
-        Format::GeoJsonLines => Ok(geojson::read_lines(text(bytes)?)),
+        Format::GeoJsonLines | Format::GeoJsonSeq => Ok(geojson::read_lines(text(bytes)?)),
         Format::Wkt => Ok(wkt::read(text(bytes)?)),
         Format::Wkb => wkb::read(bytes),
         Format::Rings => rings::read(text(bytes)?),

@@ -96,7 +96,7 @@ pub fn header(columns: &[&str]) -> String {
     table.text()
 }
 
-/// Appends records of one feature in a format; GeoJSON features each behind a
+/// Appends records of one feature in a format, or in its [encoding](Format::encoding); GeoJSON features each behind a
 /// [`SEPARATOR`].
 pub fn write(
     out: &mut Vec<u8>,
@@ -106,7 +106,7 @@ pub fn write(
     columns: &[&str],
     records: &[Record],
 ) {
-    match format {
+    match format.encoding() {
         Format::GeoJson => geojson(out, source, engine, columns, records, [SEPARATOR, b""]),
         Format::GeoJsonLines => geojson(out, source, engine, columns, records, [b"", b"\n"]),
         Format::Csv => {

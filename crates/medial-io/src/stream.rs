@@ -8,7 +8,7 @@ use std::io::BufRead;
 use std::iter;
 
 use crate::text::{lines, text};
-use crate::{Error, FeatureError, Format, Layer, Part, geojson, wkt};
+use crate::{Crs, Error, FeatureError, Format, Layer, Part, geojson, wkt};
 
 /// Reads features from a source as they arrive, if the [format](Format::is_streamed) has one after the
 /// other.
@@ -34,7 +34,7 @@ pub fn read_stream<'a>(
     let mut index = 0;
     let lines = Lines { source: Some(source), number: 0 };
     let parts: Box<dyn Iterator<Item = Part<'a>> + Send + 'a> = match format {
-        Format::GeoJsonLines => Box::new(lines.filter_map(move |line| {
+        Format::GeoJsonLines | Format::GeoJsonSeq => Box::new(lines.filter_map(move |line| {
             let part = part_of_line(line, index)?;
             index += 1;
             Some(part)
@@ -46,7 +46,9 @@ pub fn read_stream<'a>(
         })),
         other => return Err(Error::Unreadable { format: other }),
     };
-    Ok(Layer { crs: None, len: None, parts })
+    // Lines have no place for it.
+    let crs = (format != Format::Wkt).then(Crs::of_geojson);
+    Ok(Layer { crs, len: None, parts })
 }
 
 /// Whole lines of a source.

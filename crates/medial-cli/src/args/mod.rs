@@ -112,14 +112,13 @@ Exit status: 0 all done; 1 no usable result; 2 wrong usage; 3 some features were
 #[derive(Debug, Args)]
 #[command(after_help = AXIS_HELP)]
 pub struct AxisArgs {
-    /// Polygons: GeoJSON, GeoJSON lines, WKT, WKB or rings; `-` for standard input
+    /// Polygons: GeoJSON, WKT, WKB, rings, GeoPackage, Shapefile, FlatGeobuf, GeoParquet; `-` for standard input
     pub input: PathBuf,
     /// File to write; by default, and for `-`, standard output
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
-    /// Format of the output: geojson, geojsonl, json (axis document), wkt, wkb, csv, svg, png;
-    /// by
-    /// default that of the extension, on standard output geojson
+    /// Format of the output: geojson, geojsonl, json (axis document), wkt, wkb, csv, gpkg, shp, fgb,
+    /// parquet, svg, png; by default that of the extension, on standard output geojson
     #[arg(long, value_name = "FORMAT")]
     pub to: Option<Format>,
     /// Who computes the axis: path_tracing, divide_and_conquer
@@ -186,7 +185,7 @@ Exit status: 0 all done; 1 no usable result; 2 wrong usage; 3 some features were
 /// Arguments of `medial branches`.
 #[derive(Debug, Args)]
 pub struct BranchesArgs {
-    /// Polygons: GeoJSON, GeoJSON lines, WKT, WKB or rings; `-` for standard input
+    /// Polygons: GeoJSON, WKT, WKB, rings, GeoPackage, Shapefile, FlatGeobuf, GeoParquet; `-` for standard input
     pub input: PathBuf,
     #[command(flatten)]
     pub target: Target,
@@ -239,7 +238,7 @@ Exit status: 0 all done; 1 no usable result; 2 wrong usage; 3 some features were
 /// Arguments of `medial smooth`.
 #[derive(Debug, Args)]
 pub struct SmoothArgs {
-    /// Polygons: GeoJSON, GeoJSON lines, WKT, WKB or rings, or axis documents; `-` for standard input
+    /// Polygons: GeoJSON, WKT, WKB, rings, GeoPackage, Shapefile, FlatGeobuf, GeoParquet, or axis documents; `-` for standard input
     pub input: PathBuf,
     #[command(flatten)]
     pub target: Target,
@@ -276,7 +275,7 @@ Exit status: 0 all done; 1 no usable result; 2 wrong usage; 3 some features were
 /// Arguments of `medial reconstruct`.
 #[derive(Debug, Args)]
 pub struct ReconstructArgs {
-    /// Axis documents, or polygons: GeoJSON, GeoJSON lines, WKT, WKB or rings; `-` for standard input
+    /// Axis documents, or polygons in any format; `-` for standard input
     pub input: PathBuf,
     #[command(flatten)]
     pub target: Target,
@@ -345,7 +344,7 @@ Exit status: 0 all done; 1 no usable result; 2 wrong usage; 3 some features were
 #[derive(Debug, Args)]
 #[command(after_help = CENTERLINE_HELP)]
 pub struct CenterlineArgs {
-    /// Polygons: GeoJSON, GeoJSON lines, WKT, WKB or rings; `-` for standard input
+    /// Polygons: GeoJSON, WKT, WKB, rings, GeoPackage, Shapefile, FlatGeobuf, GeoParquet; `-` for standard input
     pub input: PathBuf,
     /// File to write; by default, and for `-`, standard output
     #[arg(short, long, value_name = "FILE")]
@@ -432,7 +431,7 @@ Exit status: 0 all done; 1 no usable result; 2 wrong usage; 3 some features were
 #[derive(Debug, Args)]
 #[command(after_help = VORONOI_HELP)]
 pub struct VoronoiArgs {
-    /// Polygons: GeoJSON, GeoJSON lines, WKT, WKB or rings; `-` for standard input
+    /// Polygons: GeoJSON, WKT, WKB, rings, GeoPackage, Shapefile, FlatGeobuf, GeoParquet; `-` for standard input
     pub input: PathBuf,
     /// File to write; by default, and for `-`, standard output
     #[arg(short, long, value_name = "FILE")]
@@ -474,7 +473,7 @@ pub struct LocateArgs {
     /// Ordinate of the point, in units of the input
     #[arg(value_parser = coordinate, allow_negative_numbers = true)]
     pub y: f64,
-    /// Polygons: GeoJSON, GeoJSON lines, WKT, WKB or rings; `-` for standard input
+    /// Polygons: GeoJSON, WKT, WKB, rings, GeoPackage, Shapefile, FlatGeobuf, GeoParquet; `-` for standard input
     pub input: PathBuf,
     /// File to write; by default, and for `-`, standard output
     #[arg(short, long, value_name = "FILE")]
@@ -495,7 +494,7 @@ Exit status: 0 no defect; 1 no usable result; 2 wrong usage; 3 some features wer
 #[derive(Debug, Args)]
 #[command(after_help = CHECK_HELP)]
 pub struct CheckArgs {
-    /// Polygons: GeoJSON, GeoJSON lines, WKT, WKB or rings; `-` for standard input
+    /// Polygons: GeoJSON, WKT, WKB, rings, GeoPackage, Shapefile, FlatGeobuf, GeoParquet; `-` for standard input
     pub domain: PathBuf,
     /// Axis document of these polygons; `-` for standard input
     pub axis: PathBuf,
@@ -526,7 +525,7 @@ Exit status: 0 all done; 1 no usable result; 2 wrong usage; 3 some features were
 #[derive(Debug, Args)]
 #[command(after_help = COMPARE_HELP)]
 pub struct CompareArgs {
-    /// Polygons: GeoJSON, GeoJSON lines, WKT, WKB or rings; `-` for standard input
+    /// Polygons: GeoJSON, WKT, WKB, rings, GeoPackage, Shapefile, FlatGeobuf, GeoParquet; `-` for standard input
     pub input: PathBuf,
     /// File to write; by default, and for `-`, standard output
     #[arg(short, long, value_name = "FILE")]
@@ -565,7 +564,7 @@ Exit status: 0 all done; 1 no usable result; 2 wrong usage; 3 some features were
 #[derive(Debug, Args)]
 #[command(after_help = COMPRESS_HELP)]
 pub struct CompressArgs {
-    /// Polygons: GeoJSON, GeoJSON lines, WKT, WKB or rings; `-` for standard input
+    /// Polygons: GeoJSON, WKT, WKB, rings, GeoPackage, Shapefile, FlatGeobuf, GeoParquet; `-` for standard input
     pub input: PathBuf,
     /// File to write (maxis); by default, and for `-`, standard output
     #[arg(short, long, value_name = "FILE")]
@@ -653,10 +652,13 @@ impl Region {
 /// Arguments of every command that reads polygons.
 #[derive(Debug, Args)]
 pub struct Common {
-    /// Format of the polygons: geojson, geojsonl, wkt, wkb, rings; by default that of the
-    /// extension, else told by the content
+    /// Format of the polygons: geojson, geojsonl, wkt, wkb, rings, gpkg, shp, fgb, parquet; by default
+    /// that of the extension, else told by the content
     #[arg(long, value_name = "FORMAT")]
     pub from: Option<Format>,
+    /// Layer to read, of a GeoPackage with several
+    #[arg(long, value_name = "NAME")]
+    pub layer: Option<String>,
     /// Refuse what would be repaired
     #[arg(long)]
     pub strict: bool,

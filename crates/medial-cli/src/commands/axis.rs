@@ -58,7 +58,7 @@ fn run_on(args: &AxisArgs, documents: Documents) -> Result<Status, Failure> {
     };
     let crs = layer.crs.clone();
     let columns = csv::header(&args.measures, drawing);
-    let mut sink = Sink::create(args.output.as_deref(), format, columns, crs)?;
+    let mut sink = Sink::create(args.output.as_deref(), format, columns, crs, args.common.quiet)?;
     let mut nodes = args.nodes.as_deref().map(|path| Output::create(Some(path))).transpose()?;
     if let Some(nodes) = &mut nodes {
         nodes.write(csv::node_header().as_bytes())?;
@@ -99,7 +99,7 @@ fn run_on(args: &AxisArgs, documents: Documents) -> Result<Status, Failure> {
                     Some(_) => axes.iter().map(table).collect(),
                     None => String::new(),
                 };
-                (encode(format, drawing, feature, domain, axes, bytes), table)
+                (encode(format.encoding(), drawing, feature, domain, axes, bytes), table)
             }))
         },
         |(drawn, table)| {
@@ -203,8 +203,10 @@ fn output_format(args: &AxisArgs) -> Result<Format, Failure> {
     let format = format_of(args.to, file)?;
     let usage = |why: String| Err(Failure::Usage(why));
     let picture = matches!(format, Format::Svg | Format::Png);
-    let lines =
-        matches!(format, Format::GeoJson | Format::GeoJsonLines | Format::Wkt | Format::Wkb);
+    let lines = matches!(
+        format.encoding(),
+        Format::GeoJson | Format::GeoJsonLines | Format::Wkt | Format::Wkb
+    );
     if format == Format::Rings {
         return usage("rings hold polygons, no axes; see --to in --help".to_owned());
     }
@@ -218,16 +220,21 @@ fn output_format(args: &AxisArgs) -> Result<Format, Failure> {
         return usage(format!("--draw is for svg and png, not for {format}"));
     }
     if args.z.is_some() && !lines && format != Format::Csv {
-        return usage(format!("--z is for geojson, geojsonl, wkt, wkb and csv, not for {format}"));
+        return usage(format!(
+            "--z is for geojson, geojsonl, wkt, wkb, csv and tables, not for {format}"
+        ));
     }
     if args.keypoints && format == Format::Csv {
         return usage("--keypoints is not for csv, which has a row for each path".to_owned());
     }
     if !args.measures.is_empty()
-        && !matches!(format, Format::GeoJson | Format::GeoJsonLines | Format::Csv | Format::Json)
+        && !matches!(
+            format.encoding(),
+            Format::GeoJson | Format::GeoJsonLines | Format::Csv | Format::Json
+        )
     {
         return usage(format!(
-            "--measures is for geojson, geojsonl, csv and json, not for {format}"
+            "--measures is for geojson, geojsonl, csv, json and tables, not for {format}"
         ));
     }
     let mut known = args.measures.iter().enumerate();
@@ -238,5 +245,15 @@ fn output_format(args: &AxisArgs) -> Result<Format, Failure> {
     if binary && file.is_none() && std::io::stdout().is_terminal() {
         return usage(format!("a terminal shows no {format}; name a file with -o"));
     }
+    needs_file(format, file)?;
     Ok(format)
+}
+
+/// Fails if a table has no file to be.
+pub fn needs_file(format: Format, file: Option<&Path>) -> Result<(), Failure> {
+    if format.is_table() && file.is_none() {
+        let why = format!("{format} is written to a file; name it with -o");
+        return Err(Failure::Usage(why));
+    }
+    Ok(())
 }

@@ -1,4 +1,4 @@
-use super::axis::format_of;
+use super::axis::{format_of, needs_file};
 use super::features::Run;
 use super::sink::{Sink, boundary, title};
 use crate::args::{CenterlineArgs, Extend, Purpose};
@@ -23,7 +23,13 @@ pub fn run(args: &CenterlineArgs) -> Result<Status, Failure> {
     let input = run.open(&args.input)?;
     let layer = timed(&mut run.stages.read, || input.layer())?;
     let columns = csv::centerline_header();
-    let mut sink = Sink::create(args.output.as_deref(), format, columns, layer.crs.clone())?;
+    let mut sink = Sink::create(
+        args.output.as_deref(),
+        format,
+        columns,
+        layer.crs.clone(),
+        args.common.quiet,
+    )?;
     let mut pictures = Vec::new();
     let mut write = Duration::ZERO;
     let (at_once, threads) = run.threads(&layer);
@@ -54,7 +60,7 @@ pub fn run(args: &CenterlineArgs) -> Result<Status, Failure> {
                 return Ok(Some(MainLines { boundary: boundary(domain), lines }));
             }
             timed(&mut stages.write, || {
-                encode(format, feature, args.engine, &lines, &drawn, z, bytes);
+                encode(format.encoding(), feature, args.engine, &lines, &drawn, z, bytes);
             });
             Ok(None)
         },
@@ -131,14 +137,15 @@ fn output_format(args: &CenterlineArgs) -> Result<Format, Failure> {
     let file = args.output.as_deref().filter(|path| path.as_os_str() != "-");
     let format = format_of(args.to, file)?;
     let known = [Format::GeoJson, Format::GeoJsonLines, Format::Wkt, Format::Csv, Format::Svg];
-    if !known.contains(&format) {
+    if !known.contains(&format.encoding()) {
         let why = format!(
-            "centerlines are written as geojson, geojsonl, wkt, csv or svg, not as {format}"
+            "centerlines are written as geojson, geojsonl, wkt, csv, svg, gpkg, shp, fgb or parquet, not as {format}"
         );
         return Err(Failure::Usage(why));
     }
     if args.z.is_some() && format == Format::Svg {
         return Err(Failure::Usage("--z is for geojson, geojsonl, wkt and csv".to_owned()));
     }
+    needs_file(format, file)?;
     Ok(format)
 }

@@ -10,7 +10,7 @@ use medial::domain::Domain;
 use medial::engine::{self, interior};
 use medial::ops::{CompressError, Compressed, Corners, compress};
 use medial_io::maxis::{self, Record};
-use medial_io::{Feature, Format, wkb};
+use medial_io::{Crs, Feature, Format, wkb};
 use std::io::IsTerminal as _;
 use std::time::Duration;
 
@@ -21,7 +21,7 @@ pub fn run(args: &CompressArgs) -> Result<Status, Failure> {
     check_output(file)?;
     let input = run.open_with(&args.input, Documents::AsPolygons)?;
     let layer = timed(&mut run.stages.read, || input.layer())?;
-    let crs = layer.crs.clone();
+    let crs = layer.crs.as_ref().and_then(Crs::member);
     let output = Output::create(file)?;
     // The sizes go where the file does not.
     let mut rows = file.map(|_| Output::create(None)).transpose()?;

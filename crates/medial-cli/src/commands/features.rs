@@ -10,7 +10,7 @@ use crate::progress::Progress;
 use crate::report::{self, Entry, FeatureReport, Report};
 use crate::timings::{self, Stages, timed};
 use medial::domain::Domain;
-use medial_io::{Error, Feature, FeatureError, Json, Layer, Part};
+use medial_io::{Crs, Error, Feature, FeatureError, Json, Layer, Part, ReadOptions};
 use std::num::NonZeroUsize;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
@@ -70,7 +70,8 @@ impl<'a> Run<'a> {
 
     /// Opens an input of polygons or axes.
     pub fn opened(&mut self, path: &Path) -> Result<Opened, Failure> {
-        timed(&mut self.stages.read, || Opened::new(path, self.common.from))
+        let options = ReadOptions { layer: self.common.layer.clone(), ..ReadOptions::default() };
+        timed(&mut self.stages.read, || Opened::new(path, self.common.from, &options))
     }
 
     /// Calls `work` for each valid feature, `at_once` at a time, then `done` with the results and
@@ -94,8 +95,9 @@ impl<'a> Run<'a> {
         // Bytes of earlier batches, for their memory: it grows once and stays warm.
         let spare = Mutex::new(Vec::new());
         let spare = || spare.lock().unwrap_or_else(PoisonError::into_inner);
+        let parts = timed(&mut find, || told_of_degrees(layer, input, &progress));
         let broke = ordered(
-            Batches { parts: layer.parts(), find: &mut find },
+            Batches { parts, find: &mut find },
             at_once,
             |batch| {
                 let mut bytes = spare().pop().unwrap_or_default();
@@ -205,6 +207,41 @@ impl<'p, I: Iterator<Item = Part<'p>>> Iterator for Batches<'_, I> {
         });
         (!batch.is_empty()).then_some(batch)
     }
+}
+
+/// The features of a layer, once it is said that its coordinates are degrees. Where only the rules of the
+/// format say so, the first feature has to agree.
+fn told_of_degrees<'a>(
+    layer: Layer<'a>,
+    input: &Polygons,
+    progress: &Progress,
+) -> impl Iterator<Item = Part<'a>> + Send + use<'a> {
+    let crs = layer.crs.clone().filter(Crs::is_geographic);
+    let mut parts = layer.parts();
+    let mut first = None;
+    if let Some(crs) = crs {
+        let mut are_degrees = true;
+        if crs.is_assumed() {
+            let read = parts.next().map(Part::read);
+            are_degrees = read.as_ref().is_some_and(|read| read.as_ref().is_ok_and(in_degrees));
+            first = read.map(Part::from);
+        }
+        if are_degrees {
+            progress.warning(&format!(
+                "{}: the coordinates are degrees ({crs}), and so are lengths, widths and radii; \
+                 degrees of longitude are shorter than those of latitude: project the layer first \
+                 for true ones",
+                input.name
+            ));
+        }
+    }
+    first.into_iter().chain(parts)
+}
+
+/// Whether the coordinates of a feature can be longitudes and latitudes.
+fn in_degrees(feature: &Feature) -> bool {
+    let mut points = feature.polygons.iter().flatten().flatten();
+    points.all(|p| p.x.abs() <= 180.0 && p.y.abs() <= 90.0)
 }
 
 fn process<R>(

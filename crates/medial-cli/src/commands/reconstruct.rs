@@ -63,7 +63,7 @@ fn of_documents(args: &ReconstructArgs, plan: &Plan<'_>, input: &Input) -> Resul
         return Err(Failure::Usage(why.to_owned()));
     }
     let format = plan.format()?;
-    let mut sink = plan.sink(format, None)?;
+    let mut sink = plan.sink(format, None, args.common.quiet)?;
     let progress = Progress::new(args.common.progress, args.common.quiet, None);
     let (mut done, mut left_out) = (0, 0);
     for document in input.axes()? {

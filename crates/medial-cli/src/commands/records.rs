@@ -1,6 +1,6 @@
 //! What commands whose results are records do alike.
 
-use super::axis::format_of;
+use super::axis::{format_of, needs_file};
 use super::features::Run;
 use super::sink::Sink;
 use crate::args::Target;
@@ -12,7 +12,7 @@ use medial::axis::Engine;
 use medial::domain::Domain;
 use medial::engine;
 use medial_io::record::{self, Record};
-use medial_io::{Feature, Format};
+use medial_io::{Crs, Feature, Format};
 use std::io::IsTerminal as _;
 use std::path::Path;
 use std::time::Duration;
@@ -49,20 +49,24 @@ impl Plan<'_> {
     /// The format of the output, if the records have it.
     pub fn format(&self) -> Result<Format, Failure> {
         let format = self.asked()?;
-        if !self.formats.contains(&format) {
-            let names = self.formats.iter().map(|format| format.name()).collect::<Vec<_>>();
+        if !self.formats.contains(&format.encoding()) {
+            let tables = [Format::Gpkg, Format::Shp, Format::Fgb, Format::Parquet];
+            let names = self.formats.iter().chain(&tables);
+            let names = names.map(|format| format.name()).collect::<Vec<_>>();
             let (thing, names) = (self.thing, names.join(", "));
             return Err(Failure::Usage(format!("{thing} are written as {names}, not as {format}")));
         }
         if format == Format::Wkb && self.file().is_none() && std::io::stdout().is_terminal() {
             return Err(Failure::Usage("a terminal shows no wkb; name a file with -o".to_owned()));
         }
+        needs_file(format, self.file())?;
         Ok(format)
     }
 
     /// A place for the records.
-    pub fn sink(&self, format: Format, crs: Option<medial_io::Json>) -> Result<Sink, Failure> {
-        Sink::create(self.target.output.as_deref(), format, record::header(self.columns), crs)
+    pub fn sink(&self, format: Format, crs: Option<Crs>, quiet: bool) -> Result<Sink, Failure> {
+        let columns = record::header(self.columns);
+        Sink::create(self.target.output.as_deref(), format, columns, crs, quiet)
     }
 
     /// Calls `work` for each valid feature of an input and writes the records that it gives.
@@ -98,7 +102,7 @@ impl Plan<'_> {
     ) -> Result<Status, Failure> {
         let format = self.format()?;
         let layer = timed(&mut run.stages.read, || input.layer())?;
-        let mut sink = self.sink(format, layer.crs.clone())?;
+        let mut sink = self.sink(format, layer.crs.clone(), run.common.quiet)?;
         let mut parts = Vec::new();
         let mut write = Duration::ZERO;
         let (at_once, threads) = run.threads(&layer);

@@ -1,11 +1,12 @@
 use crate::failure::Failure;
 use crate::output::Output;
+use crate::table::Table;
 use medial::axis::{MedialAxis, Side};
 use medial::domain::Domain;
 use medial::ops::Significance;
 use medial_io::svg::{Options, Scene};
 use medial_io::{
-    Drawing, Feature, Format, Json, axis_document, csv, domain_tolerance, geojson, png, svg, wkb,
+    Crs, Drawing, Feature, Format, axis_document, csv, domain_tolerance, geojson, png, svg, wkb,
     wkt,
 };
 use std::path::Path;
@@ -16,8 +17,10 @@ pub struct Sink {
     format: Format,
     /// The row of column names of CSV.
     columns: String,
-    crs: Option<Json>,
+    crs: Option<Crs>,
     begun: bool,
+    /// The rows of a table, until all are known.
+    table: Option<Table>,
 }
 
 /// Appends the axes of a feature, each with what was measured, in a format, or gives what to draw of them.
@@ -91,14 +94,29 @@ impl Sink {
         path: Option<&Path>,
         format: Format,
         columns: String,
-        crs: Option<Json>,
+        crs: Option<Crs>,
+        quiet: bool,
     ) -> Result<Self, Failure> {
-        Ok(Self { output: Output::create(path)?, format, columns, crs, begun: false })
+        let output = Output::create(path)?;
+        let table = match path {
+            Some(path) if format.is_table() => Some(Table::create(path, format, quiet)?),
+            _ => None,
+        };
+        Ok(Self { output, format, columns, crs, begun: false, table })
     }
 
     /// Writes what [`encode`] made of axes that follow one another.
     pub fn write(&mut self, mut bytes: &[u8]) -> Result<(), Failure> {
         if bytes.is_empty() {
+            return Ok(());
+        }
+        if let Some(table) = &mut self.table {
+            return table.add(bytes);
+        }
+        if self.format == Format::GeoJsonSeq {
+            for line in bytes.split_inclusive(|&byte| byte == b'\n') {
+                self.output.write(&[b"\x1e", line].concat())?;
+            }
             return Ok(());
         }
         if !self.begun && self.format == Format::GeoJson {
@@ -121,6 +139,9 @@ impl Sink {
 
     /// Writes what comes last, the picture if the format is one, and lets the output appear.
     pub fn finish(mut self, picture: &[u8]) -> Result<(), Failure> {
+        if let Some(table) = self.table {
+            return table.finish(self.output, self.crs.as_ref());
+        }
         self.begin()?;
         if self.format == Format::GeoJson {
             self.output.write(geojson::FOOTER.as_bytes())?;

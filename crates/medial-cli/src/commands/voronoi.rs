@@ -1,4 +1,4 @@
-use super::axis::{format_of, trace};
+use super::axis::{format_of, needs_file, trace};
 use super::features::Run;
 use super::sink::{Sink, title};
 use crate::args::VoronoiArgs;
@@ -19,7 +19,13 @@ pub fn run(args: &VoronoiArgs) -> Result<Status, Failure> {
     let format = output_format(args)?;
     let input = run.open(&args.input)?;
     let layer = timed(&mut run.stages.read, || input.layer())?;
-    let mut sink = Sink::create(args.output.as_deref(), format, String::new(), layer.crs.clone())?;
+    let mut sink = Sink::create(
+        args.output.as_deref(),
+        format,
+        String::new(),
+        layer.crs.clone(),
+        args.common.quiet,
+    )?;
     let mut diagrams = Vec::new();
     let mut write = Duration::ZERO;
     let (at_once, threads) = run.threads(&layer);
@@ -34,7 +40,7 @@ pub fn run(args: &VoronoiArgs) -> Result<Status, Failure> {
             let voronoi =
                 timed(&mut stages.operations, || diagram(domain, &axes, args.region.frame))
                     .map_err(|error| Entry::internal(&error))?;
-            let encode = || encode(format, args.tolerance, feature, &voronoi, bytes);
+            let encode = || encode(format.encoding(), args.tolerance, feature, &voronoi, bytes);
             Ok(timed(&mut stages.write, encode))
         },
         |diagram| diagrams.extend(diagram),
@@ -97,15 +103,19 @@ fn output_format(args: &VoronoiArgs) -> Result<Format, Failure> {
     let file = args.output.as_deref().filter(|path| path.as_os_str() != "-");
     let format = format_of(args.to, file)?;
     let known = [Format::GeoJson, Format::GeoJsonLines, Format::Json, Format::Svg];
-    if !known.contains(&format) {
-        let why =
-            format!("diagrams are written as geojson, geojsonl, json or svg, not as {format}");
+    if !known.contains(&format.encoding()) {
+        let why = format!(
+            "diagrams are written as geojson, geojsonl, json, svg, gpkg, shp, fgb or parquet, not as {format}"
+        );
         return Err(Failure::Usage(why));
     }
     args.region.check()?;
-    if args.tolerance.is_some() && !matches!(format, Format::GeoJson | Format::GeoJsonLines) {
+    if args.tolerance.is_some()
+        && !matches!(format.encoding(), Format::GeoJson | Format::GeoJsonLines)
+    {
         let why = format!("--tolerance is for geojson and geojsonl; curves are exact in {format}");
         return Err(Failure::Usage(why));
     }
+    needs_file(format, file)?;
     Ok(format)
 }

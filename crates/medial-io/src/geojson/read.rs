@@ -1,7 +1,7 @@
 use super::quick::{self, Collection, Polygonal};
 use crate::json::{Members, Ring, parse, points};
 use crate::text::{lines, offset, syntax_at};
-use crate::{Error, Feature, FeatureError, Layer};
+use crate::{Crs, Error, Feature, FeatureError, Json, Layer};
 use serde::Deserialize;
 use serde_json::value::RawValue;
 use std::borrow::Cow;
@@ -41,7 +41,7 @@ pub fn read(text: &str) -> Result<Layer<'_>, Error> {
         return Err(Error::Empty);
     }
     if let Some(Collection { features, crs }) = quick::collection(text) {
-        let crs = crs.map(|crs| parse(text, crs)).transpose()?;
+        let crs = reference(crs.map(|crs| parse(text, crs)).transpose()?);
         let len = Some(features.len());
         return Ok(Layer { crs, len, ..Layer::of_slices(text, features.into_iter(), feature) });
     }
@@ -52,7 +52,7 @@ pub fn read(text: &str) -> Result<Layer<'_>, Error> {
     } else {
         vec![parse(text, text)?]
     };
-    let crs = object.crs.map(ToOwned::to_owned);
+    let crs = reference(object.crs.map(ToOwned::to_owned));
     let len = Some(slices.len());
     let slices = slices.into_iter().map(RawValue::get);
     Ok(Layer { crs, len, ..Layer::of_slices(text, slices, feature) })
@@ -62,7 +62,13 @@ pub fn read(text: &str) -> Result<Layer<'_>, Error> {
 /// skipped, and a malformed line is an item of the layer.
 #[must_use]
 pub fn read_lines(text: &str) -> Layer<'_> {
-    Layer::of_slices(text, lines(text), feature)
+    let crs = reference(None);
+    Layer { crs, ..Layer::of_slices(text, lines(text), feature) }
+}
+
+/// What a `crs` member says, or what holds where there is none.
+fn reference(member: Option<Json>) -> Option<Crs> {
+    member.map_or_else(|| Some(Crs::of_geojson()), |member| Some(Crs::of_member(member)))
 }
 
 pub(crate) fn feature(text: &str, part: &str, index: usize) -> Result<Feature, FeatureError> {

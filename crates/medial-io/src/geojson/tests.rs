@@ -60,7 +60,8 @@ fn members_may_come_in_any_order() {
             "crs":{{"type":"name","properties":{{"name":"EPSG:2193"}}}},"type":"FeatureCollection"}}"#
     );
     let layer = read(&text).unwrap();
-    let crs: Value = serde_json::from_str(layer.crs.as_ref().unwrap().get()).unwrap();
+    let crs: Value =
+        serde_json::from_str(layer.crs.as_ref().unwrap().member().unwrap().get()).unwrap();
     assert_eq!(crs["properties"]["name"], "EPSG:2193");
     assert_eq!(layer.len, Some(1));
     let read: Vec<_> = layer.map(Result::unwrap).collect();
@@ -209,7 +210,8 @@ fn the_radius_is_the_third_coordinate_on_request() {
 
 #[test]
 fn a_collection_is_valid_json_and_keeps_its_crs() {
-    let crs = serde_json::value::RawValue::from_string("{\"type\": \"name\"}".into()).unwrap();
+    let member = serde_json::value::RawValue::from_string("{\"type\": \"name\"}".into());
+    let crs = crate::Crs::of_member(member.unwrap());
     let text = header(Some(&crs)) + &features_of(&sampled("{}"), Drawing::default()) + FOOTER;
     let whole: Value = serde_json::from_str(&text).unwrap();
     assert_eq!(whole["type"], "FeatureCollection");

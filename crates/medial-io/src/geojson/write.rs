@@ -1,7 +1,7 @@
 use crate::json::{compact, push_quoted};
 use crate::number::decimal;
 use crate::path::{PathRecord, measure_columns, records};
-use crate::{Drawing, Feature, Json};
+use crate::{Crs, Drawing, Feature};
 use medial::axis::{Engine, MedialAxis};
 use medial::geom::Point;
 use medial::ops::Significance;
@@ -21,8 +21,9 @@ const PLACE_BYTES: usize = 64;
 
 /// The beginning of a collection, up to its first feature.
 #[must_use]
-pub fn header(crs: Option<&Json>) -> String {
-    let crs = crs.map_or_else(String::new, |crs| format!("\"crs\":{},\n", compact(crs)));
+pub fn header(crs: Option<&Crs>) -> String {
+    let member = crs.and_then(Crs::member);
+    let crs = member.map_or_else(String::new, |crs| format!("\"crs\":{},\n", compact(&crs)));
     format!("{{\"type\":\"FeatureCollection\",\n{crs}\"features\":[\n")
 }
 

@@ -7,6 +7,7 @@ mod write;
 
 pub use polygons::write_polygons;
 pub use read::read;
+pub(crate) use read::read_alone;
 pub(crate) use write::shape;
 pub use write::write;
 

@@ -57,6 +57,20 @@ fn hexadecimal_line(text: &str, line: &str, index: usize) -> Result<Feature, Fea
     feature(&mut Reader { bytes: &bytes, at: 0, little: true }, index)
 }
 
+/// Reads the only geometry in some bytes into a feature.
+///
+/// # Errors
+/// If it is malformed, or something follows it.
+pub(crate) fn read_alone(bytes: &[u8], feature: &mut Feature) -> Result<(), Error> {
+    let mut reader = Reader { bytes, at: 0, little: true };
+    geometry(&mut reader, feature, 0)?;
+    let left = bytes.len() - reader.at;
+    if left > 0 {
+        return Err(reader.wrong(format!("{left} bytes follow the geometry")));
+    }
+    Ok(())
+}
+
 fn feature(reader: &mut Reader, index: usize) -> Result<Feature, FeatureError> {
     let mut feature = Feature::numbered(index);
     match geometry(reader, &mut feature, 0) {
@@ -126,7 +140,7 @@ fn geometry(reader: &mut Reader, feature: &mut Feature, depth: u32) -> Result<()
         3 => 2,
         _ => 1,
     };
-    const NAMES: [&str; 7] = [
+    const NAMES: [&str; 17] = [
         "Point",
         "LineString",
         "Polygon",
@@ -134,9 +148,19 @@ fn geometry(reader: &mut Reader, feature: &mut Feature, depth: u32) -> Result<()
         "MultiLineString",
         "MultiPolygon",
         "GeometryCollection",
+        "CircularString",
+        "CompoundCurve",
+        "CurvePolygon",
+        "MultiCurve",
+        "MultiSurface",
+        "",
+        "",
+        "PolyhedralSurface",
+        "TIN",
+        "Triangle",
     ];
     let name = (kind % 1000).checked_sub(1).and_then(|k| NAMES.get(k as usize));
-    let Some(&name) = name.filter(|_| kind < 4000) else {
+    let Some(&name) = name.filter(|name| kind < 4000 && !name.is_empty()) else {
         return Err(reader.wrong(format!("geometries of type {kind} are not known")));
     };
     if depth == 0 {
@@ -144,14 +168,32 @@ fn geometry(reader: &mut Reader, feature: &mut Feature, depth: u32) -> Result<()
     }
     match name {
         "Point" => drop(reader.point(dimensions)?),
-        "LineString" => drop(reader.points(dimensions)?),
+        "LineString" | "CircularString" => drop(reader.points(dimensions)?),
         "Polygon" => {
             let rings = reader.count(4)?;
             let rings: Result<Vec<_>, _> = (0..rings).map(|_| reader.points(dimensions)).collect();
             feature.add_polygon(rings?);
         }
+        "Triangle" => {
+            for _ in 0..reader.count(4)? {
+                reader.points(dimensions)?;
+            }
+        }
         _ if depth == MAX_NESTING => {
             return Err(reader.wrong(format!("collections are nested deeper than {MAX_NESTING}")));
+        }
+        "CompoundCurve" | "CurvePolygon" | "MultiCurve" | "MultiSurface" | "PolyhedralSurface"
+        | "TIN" => {
+            // Arcs are no edges, and a part of a shape is none.
+            let mut parts = Feature { geometry: format!("a {name}"), ..Feature::default() };
+            let n_parts = reader.count(5)?;
+            for _ in 0..n_parts {
+                geometry(reader, &mut parts, depth + 1)?;
+            }
+            if name == "MultiSurface" && parts.polygons.len() == n_parts {
+                feature.polygonal = true;
+                feature.polygons.append(&mut parts.polygons);
+            }
         }
         _ => {
             feature.polygonal |= name == "MultiPolygon";
@@ -162,7 +204,8 @@ fn geometry(reader: &mut Reader, feature: &mut Feature, depth: u32) -> Result<()
     }
     // Points of a multipoint are not told one by one.
     if depth > 0
-        && matches!(name, "Point" | "LineString")
+        && !name.starts_with("Multi")
+        && !matches!(name, "Polygon" | "GeometryCollection")
         && feature.geometry.ends_with("Collection")
     {
         feature.leave_out(name);

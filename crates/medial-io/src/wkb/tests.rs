@@ -99,8 +99,8 @@ fn what_is_wrong_is_named() {
     assert_eq!(error(&whole[..50]), "byte 9: a count of 3 is more than there is");
     assert_eq!(error(&[7, 0]), "byte 1: 7 is no byte order");
     assert_eq!(error(&[1, 3]), "byte 1: the geometry ends too early");
-    let curve = Bytes::head(true, 10).word(0).0;
-    assert_eq!(error(&curve), "byte 5: geometries of type 10 are not known");
+    let surface = Bytes::head(true, 14).word(0).0;
+    assert_eq!(error(&surface), "byte 5: geometries of type 14 are not known");
     let many = Bytes::head(true, 3).word(u32::MAX).0;
     assert_eq!(error(&many), "byte 5: a count of 4294967295 is more than there is");
     let deep = Bytes::head(true, 7).word(1).0.repeat(100_000);
@@ -121,4 +121,20 @@ fn an_axis_is_one_multi_line_string() {
     let read = features(&bytes);
     assert!(!read[0].polygonal);
     assert_eq!(read[0].geometry, "a GeometryCollection");
+}
+
+#[test]
+fn curved_shapes_are_no_polygons_but_surfaces_of_polygons_are() {
+    let triangle = triangle(true);
+    let curve = [Bytes::head(true, 10).word(1).0, Bytes::head(true, 8).word(0).0].concat();
+    let of = |parts: &[&[u8]]| {
+        let head = Bytes::head(true, 12).word(parts.len() as u32).0;
+        features(&[&head[..], &parts.concat()].concat()).remove(0)
+    };
+    let surface = of(&[&triangle, &triangle]);
+    assert!(surface.polygonal && surface.polygons.len() == 2 && surface.notes.is_empty());
+    let mixed = of(&[&triangle, &curve]);
+    assert!(!mixed.polygonal && mixed.polygons.is_empty() && mixed.geometry == "a MultiSurface");
+    let alone = &features(&curve)[0];
+    assert!(!alone.polygonal && alone.geometry == "a CurvePolygon");
 }

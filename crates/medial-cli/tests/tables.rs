@@ -1,0 +1,133 @@
+//! Tables of features, as a user meets them.
+
+mod common;
+
+use common::{fixture, medial, medial_with, names};
+
+const SQUARES: &str = r#"{"type":"FeatureCollection","crs":{"type":"name","properties":{"name":"EPSG:2193"}},"features":[
+{"type":"Feature","id":7,"properties":{"name":"é"},"geometry":{"type":"Polygon","coordinates":[[[0,0],[4,0],[4,2],[0,0.1],[0,0]]]}},
+{"type":"Feature","properties":{"name":null},"geometry":{"type":"Point","coordinates":[0,0]}},
+{"type":"Feature","properties":{"n":0.1},"geometry":{"type":"Polygon","coordinates":[[[10,0],[14,0],[14,2],[10,2],[10,0]]]}}]}"#;
+
+fn path(folder: &tempfile::TempDir, name: &str) -> String {
+    folder.path().join(name).display().to_string()
+}
+
+#[test]
+fn every_table_can_be_written_and_read() {
+    let folder = tempfile::tempdir().unwrap();
+    let lines = medial_with(&["axis", "-", "-q", "--to", "geojsonl"], SQUARES);
+    let n_paths = lines.text().lines().count();
+    for format in ["gpkg", "shp", "fgb", "parquet"] {
+        let file = path(&folder, &format!("offset.{format}"));
+        let run =
+            medial_with(&["offset", "-", "--distance", "0.01", "-q", "-o", file.as_str()], SQUARES);
+        assert_eq!(run.status, Some(3), "{format}: {}", run.errors);
+        let run = medial(&["axis", &file, "-q", "--to", "geojsonl"]);
+        assert_eq!(run.status, Some(0), "{format}: {}", run.errors);
+        assert_eq!(run.text().lines().count(), n_paths, "{format}");
+        assert!(run.text().contains("\"name\":\"é\""), "{format}");
+        // The extension is not needed: the content tells.
+        let other = path(&folder, "table");
+        std::fs::copy(&file, &other).unwrap();
+        if format != "shp" {
+            let run = medial(&["axis", &other, "-q", "--to", "geojsonl"]);
+            assert_eq!(run.text().lines().count(), n_paths, "{format}");
+        }
+    }
+}
+
+#[test]
+fn other_commands_write_tables_too() {
+    let folder = tempfile::tempdir().unwrap();
+    let plus = fixture("shapes/plus_of_unit_squares.wkt").display().to_string();
+    for command in ["branches", "centerline", "clearance", "smooth", "reconstruct", "voronoi"] {
+        let file = path(&folder, &format!("{command}.gpkg"));
+        let run = medial(&[command, &plus, "-o", &file]);
+        assert_eq!((run.status, run.errors.as_str()), (Some(0), ""), "{command}");
+        assert!(std::fs::read(&file).unwrap().starts_with(b"SQLite format 3\0"), "{command}");
+    }
+    let spaces: Vec<String> = names(folder.path());
+    assert_eq!(spaces.len(), 6, "nothing else is left: {spaces:?}");
+}
+
+#[test]
+fn the_reference_system_passes_through() {
+    let folder = tempfile::tempdir().unwrap();
+    for format in ["gpkg", "shp", "fgb"] {
+        let file = path(&folder, &format!("a.{format}"));
+        medial_with(&["smooth", "-", "-q", "-o", file.as_str()], SQUARES);
+        let run = medial(&["axis", &file, "-q"]);
+        let name = "urn:ogc:def:crs:EPSG::2193";
+        assert_eq!(run.json()["crs"]["properties"]["name"], name, "{format}: {}", run.errors);
+    }
+}
+
+#[test]
+fn degrees_are_told_once() {
+    let degrees =
+        SQUARES.replace("\"crs\":{\"type\":\"name\",\"properties\":{\"name\":\"EPSG:2193\"}},", "");
+    let run = medial_with(&["axis", "-", "--to", "wkt"], &degrees);
+    assert_eq!(run.errors.matches("the coordinates are degrees (OGC:CRS84)").count(), 1);
+    let metres = degrees.replace("[4,2]", "[4,2000]");
+    let run = medial_with(&["axis", "-", "--to", "wkt"], &metres);
+    assert!(!run.errors.contains("degrees"), "{}", run.errors);
+    let run = medial_with(&["axis", "-", "--to", "wkt", "-q"], &degrees);
+    assert!(!run.errors.contains("degrees"), "{}", run.errors);
+}
+
+#[test]
+fn a_layer_is_chosen_by_its_name() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = path(&folder, "lakes.gpkg");
+    medial_with(&["smooth", "-", "-q", "-o", file.as_str()], SQUARES);
+    assert_eq!(medial(&["axis", &file, "--layer", "lakes"]).status, Some(0));
+    let run = medial(&["axis", &file, "--layer", "rivers"]);
+    assert_eq!(run.status, Some(2));
+    assert!(run.errors.contains("no layer `rivers`") && run.errors.contains("`lakes`"));
+    let plus = fixture("shapes/plus_of_unit_squares.wkt").display().to_string();
+    assert_eq!(medial(&["axis", &plus, "--layer", "x"]).status, Some(2));
+    assert_eq!(medial(&["axis", &plus, "--layer", "plus_of_unit_squares"]).status, Some(0));
+}
+
+#[test]
+fn what_a_shapefile_cannot_hold_leaves_no_files() {
+    let folder = tempfile::tempdir().unwrap();
+    let plus = fixture("shapes/plus_of_unit_squares.wkt").display().to_string();
+    let file = path(&folder, "plus.shp");
+    let run = medial(&["axis", &plus, "--keypoints", "-o", &file]);
+    assert_eq!(run.status, Some(1));
+    assert!(run.errors.contains("one kind of geometry"), "{}", run.errors);
+    assert!(names(folder.path()).is_empty(), "{:?}", names(folder.path()));
+    std::fs::write(path(&folder, "plus.prj"), "that of another one").unwrap();
+    let run = medial(&["axis", &plus, "-o", &file]);
+    assert_eq!(run.status, Some(0));
+    assert_eq!(names(folder.path()), ["plus.cpg", "plus.dbf", "plus.shp", "plus.shx"]);
+}
+
+#[test]
+fn a_damaged_table_is_the_fault_of_the_file() {
+    let folder = tempfile::tempdir().unwrap();
+    for format in ["gpkg", "shp", "fgb", "parquet"] {
+        let file = path(&folder, &format!("a.{format}"));
+        std::fs::write(&file, "no table").unwrap();
+        let run = medial(&["axis", &file]);
+        assert_eq!(run.status, Some(1), "{format}");
+        assert_eq!(run.errors.lines().count(), 1, "{format}: {}", run.errors);
+        let run = medial(&["axis", &path(&folder, &format!("missing.{format}"))]);
+        assert_eq!(run.status, Some(1), "{format}");
+        assert!(run.errors.contains("cannot read: no such file"), "{format}: {}", run.errors);
+    }
+}
+
+#[test]
+fn text_sequences_have_record_separators() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = path(&folder, "a.geojsons");
+    medial_with(&["axis", "-", "-q", "-o", file.as_str()], SQUARES);
+    let bytes = std::fs::read(&file).unwrap();
+    let count = |what: u8| bytes.iter().filter(|&&byte| byte == what).count();
+    assert!(bytes.starts_with(b"\x1e{") && count(0x1e) == count(b'\n'));
+    let run = medial_with(&["axis", "-", "-q", "--to", "geojsonseq"], SQUARES);
+    assert_eq!(run.out, bytes);
+}

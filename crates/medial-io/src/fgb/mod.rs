@@ -1,0 +1,7 @@
+//! FlatGeobuf, version 3: a header, an index of boxes, and features one after the other, as flatbuffers.
+
+mod read;
+mod write;
+
+pub use read::open;
+pub use write::write;

@@ -1,0 +1,220 @@
+use super::{HEADER, dbf, kind, rings};
+use crate::{Crs, Error, Feature, FeatureError, Json, Layer, Part};
+use medial::geom::Point;
+use std::fs::File;
+use std::io::{self, BufReader, Read, Seek, SeekFrom};
+use std::path::{Path, PathBuf};
+
+/// Opens a shapefile by its `.shp`. The other files lie beside it; only the values are missing without
+/// `.dbf`, and the reference system without `.prj`. Rows that are marked as deleted are left out.
+///
+/// # Errors
+/// If a file cannot be read, or is no such file.
+pub fn open(path: &Path) -> Result<Layer<'static>, Error> {
+    let failed = |source| Error::Interrupted { source };
+    let wrong = |why: &str| Error::File { why: format!("it is no shapefile: {why}") };
+    let mut shapes = BufReader::new(File::open(path).map_err(failed)?);
+    let mut header = [0; HEADER];
+    shapes.read_exact(&mut header).map_err(|_| wrong("it has no header"))?;
+    if header[..4] != [0, 0, 0x27, 0x0a] {
+        return Err(wrong("it does not begin like one"));
+    }
+    let places = match beside(path, "shx") {
+        Some(found) => {
+            let mut places = BufReader::new(File::open(found).map_err(failed)?);
+            // An index that cannot be read is as good as none.
+            places.read_exact(&mut [0; HEADER]).is_ok().then_some(places)
+        }
+        None => None,
+    };
+    let len = places.as_ref().and_then(|file| file.get_ref().metadata().ok());
+    let len = len.map(|found| (found.len() as usize).saturating_sub(HEADER) / 8);
+    let table = match beside(path, "dbf") {
+        Some(found) => {
+            let encoding = beside(path, "cpg").and_then(|path| std::fs::read_to_string(path).ok());
+            let file = BufReader::new(File::open(found).map_err(failed)?);
+            Some(dbf::Reader::new(file, encoding.as_deref()).map_err(|why| Error::File { why })?)
+        }
+        None => None,
+    };
+    let crs = beside(path, "prj").and_then(|path| std::fs::read(path).ok());
+    let crs = crs.map(|bytes| String::from_utf8_lossy(&bytes).trim().to_owned());
+    let crs = crs.filter(|wkt| !wkt.is_empty()).map(|wkt| Crs::of_wkt(&wkt));
+    let rows = Shapes { shapes, places, table, n_records: 0, index: 0, is_over: false };
+    Ok(Layer { crs, len, parts: Box::new(rows) })
+}
+
+/// The file beside a `.shp` with another extension, in lower or upper case.
+fn beside(path: &Path, extension: &str) -> Option<PathBuf> {
+    let names = [extension.to_owned(), extension.to_uppercase()];
+    names.iter().map(|name| path.with_extension(name)).find(|path| path.is_file())
+}
+
+/// The records of a shapefile.
+struct Shapes {
+    shapes: BufReader<File>,
+    places: Option<BufReader<File>>,
+    table: Option<dbf::Reader<BufReader<File>>>,
+    /// Records so far, with those that are deleted.
+    n_records: u64,
+    index: usize,
+    is_over: bool,
+}
+
+impl Iterator for Shapes {
+    type Item = Part<'static>;
+
+    fn next(&mut self) -> Option<Part<'static>> {
+        while !self.is_over {
+            let found = match self.record() {
+                Ok(found) => found?,
+                Err(source) => {
+                    self.is_over = true;
+                    return Some(Part::broken(self.index, Error::Interrupted { source }));
+                }
+            };
+            self.n_records += 1;
+            let row = match self.table.as_mut().map(dbf::Reader::row).transpose() {
+                Ok(row) => row.flatten(),
+                Err(source) => {
+                    self.is_over = true;
+                    return Some(Part::broken(self.index, Error::Interrupted { source }));
+                }
+            };
+            let properties = match row {
+                Some(dbf::Row::Deleted) => continue,
+                Some(dbf::Row::Values(values)) => values,
+                None => Vec::new(),
+            };
+            let index = self.index;
+            self.index += 1;
+            return Some(part(found, index, properties));
+        }
+        None
+    }
+}
+
+impl Shapes {
+    /// The content of the next record, or what is wrong with it; `None` at the end.
+    fn record(&mut self) -> io::Result<Option<Result<Vec<u8>, String>>> {
+        if let Some(places) = &mut self.places {
+            let mut place = [0; 8];
+            match places.read_exact(&mut place) {
+                Ok(()) => {}
+                Err(error) if error.kind() == io::ErrorKind::UnexpectedEof => {
+                    self.is_over = true;
+                    return Ok(None);
+                }
+                Err(error) => return Err(error),
+            }
+            let words = u32::from_be_bytes([place[0], place[1], place[2], place[3]]);
+            let (here, there) = (self.shapes.stream_position()?, 2 * u64::from(words));
+            // A move by nothing keeps what was read ahead.
+            match i64::try_from(there).ok().and_then(|there| there.checked_sub_unsigned(here)) {
+                Some(step) => self.shapes.seek_relative(step)?,
+                None => drop(self.shapes.seek(SeekFrom::Start(there))?),
+            }
+        }
+        let mut head = Vec::new();
+        self.shapes.by_ref().take(8).read_to_end(&mut head)?;
+        let &[_, _, _, _, a, b, c, d] = head.as_slice() else {
+            if self.places.is_some() {
+                return Ok(Some(Err("the record lies behind the end of the file".to_owned())));
+            }
+            self.is_over = true;
+            let is_end = head.is_empty();
+            return Ok((!is_end).then(|| Err("the file ends in the record".to_owned())));
+        };
+        let size = 2 * u64::from(u32::from_be_bytes([a, b, c, d]));
+        let mut content = Vec::new();
+        self.shapes.by_ref().take(size).read_to_end(&mut content)?;
+        if (content.len() as u64) < size {
+            self.is_over = self.places.is_none();
+            return Ok(Some(Err("the file ends in the record".to_owned())));
+        }
+        Ok(Some(Ok(content)))
+    }
+}
+
+/// A record as a feature.
+fn part(
+    content: Result<Vec<u8>, String>,
+    index: usize,
+    properties: Vec<(String, Json)>,
+) -> Part<'static> {
+    let size = content.as_ref().map_or(0, Vec::len);
+    Part::of_row(size, move || {
+        let mut feature = Feature { index, properties, ..Feature::default() };
+        match content.and_then(|content| shape(&content, &mut feature)) {
+            Ok(()) => Ok(feature),
+            Err(why) => {
+                let error = Error::Value { place: "shape".to_owned(), why };
+                Err(FeatureError { feature: index, id: None, error })
+            }
+        }
+    })
+}
+
+/// Reads the content of a record.
+fn shape(content: &[u8], feature: &mut Feature) -> Result<(), String> {
+    let early = || "it ends too early".to_owned();
+    let kind = i32::from_le_bytes(*content.first_chunk().ok_or_else(early)?);
+    let plain = match kind {
+        kind::MULTIPATCH => kind,
+        21 | 23 | 25 | 28 => kind - kind::MEASURED,
+        11 | 13 | 15 | 18 => kind - kind::IN_SPACE,
+        other => other,
+    };
+    feature.geometry = match plain {
+        kind::NULL => "without a geometry",
+        kind::POINT => "a Point",
+        kind::POLYLINE => "a PolyLine",
+        kind::POLYGON => "a Polygon",
+        kind::MULTIPOINT => "a MultiPoint",
+        kind::MULTIPATCH => "a MultiPatch",
+        other => return Err(format!("shapes of type {other} are not known")),
+    }
+    .to_owned();
+    if plain != kind::POLYGON {
+        return Ok(());
+    }
+    feature.polygonal = true;
+    // The type and the box are before the counts.
+    let counts = content.get(36..44).ok_or_else(early)?;
+    let count = |at: usize| {
+        counts
+            .get(at..)
+            .and_then(<[u8]>::first_chunk)
+            .map_or(0, |bytes| u32::from_le_bytes(*bytes) as usize)
+    };
+    let (n_parts, n_points) = (count(0), count(4));
+    let rest = &content[44..];
+    let more = |what: &str, n: usize| format!("{n} {what} are more than there is");
+    let starts = n_parts.checked_mul(4).and_then(|size| rest.get(..size));
+    let starts = starts.ok_or_else(|| more("rings", n_parts))?;
+    let points = n_points.checked_mul(16).and_then(|size| rest[starts.len()..].get(..size));
+    let points = points.ok_or_else(|| more("points", n_points))?;
+    let number = |bytes: &[u8]| bytes.first_chunk().map_or(0.0, |bytes| f64::from_le_bytes(*bytes));
+    let points: Vec<Point> = points
+        .chunks_exact(16)
+        .map(|pair| Point::new(number(&pair[..8]), number(&pair[8..])))
+        .collect();
+    let starts: Vec<usize> = starts
+        .chunks_exact(4)
+        .map(|start| start.first_chunk().map_or(0, |bytes| u32::from_le_bytes(*bytes) as usize))
+        .collect();
+    let ends = starts.iter().skip(1).copied().chain([points.len()]);
+    let rings: Result<Vec<Vec<Point>>, String> = starts
+        .iter()
+        .zip(ends)
+        .enumerate()
+        .map(|(ring, (&start, end))| {
+            let found = points.get(start..end).map(<[Point]>::to_vec);
+            found.ok_or_else(|| {
+                format!("ring {ring} runs from point {start} to {end} of {n_points}")
+            })
+        })
+        .collect();
+    feature.polygons = rings::grouped(rings?);
+    Ok(())
+}
