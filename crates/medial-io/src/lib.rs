@@ -21,6 +21,7 @@
 //!
 //! Every double is read exactly and written as the shortest text that reads back to it.
 
+mod curves;
 mod error;
 mod feature;
 mod format;
