@@ -1,5 +1,5 @@
 use crate::json::Head;
-use crate::{Error, maxis};
+use crate::{Error, dxf, font, maxis};
 use std::fmt;
 use std::path::Path;
 use std::str::FromStr;
@@ -30,6 +30,10 @@ pub enum Format {
     Maxis,
     /// A program for a machine tool.
     GCode,
+    /// A drawing of a CAD program.
+    Dxf,
+    /// A font.
+    Ttf,
 }
 
 const NAMES: &[(Format, &str, &[&str])] = &[
@@ -44,6 +48,8 @@ const NAMES: &[(Format, &str, &[&str])] = &[
     (Format::Rings, "rings", &["rings"]),
     (Format::Maxis, "maxis", &["maxis"]),
     (Format::GCode, "gcode", &["gcode", "nc", "ngc", "tap"]),
+    (Format::Dxf, "dxf", &["dxf"]),
+    (Format::Ttf, "ttf", &["ttf", "otf", "ttc", "otc"]),
 ];
 
 /// A word or a file extension that names no format.
@@ -69,6 +75,12 @@ impl Format {
         matches!(self, Self::GeoJsonLines | Self::Wkt)
     }
 
+    /// Whether it has curves, which are read as edges within a tolerance.
+    #[must_use]
+    pub fn has_curves(self) -> bool {
+        matches!(self, Self::Svg | Self::Dxf | Self::Ttf)
+    }
+
     /// The format a file's extension stands for; letter case does not matter.
     ///
     /// # Errors
@@ -83,11 +95,17 @@ impl Format {
     }
 
     /// The format of an input, told by its beginning: JSON by its `type`, else the compressed
-    /// axis, WKB or WKT.
+    /// axis, a font, DXF, SVG, WKB or WKT.
     ///
     /// # Errors
     /// If the input is empty or begins like none of them.
     pub fn of_content(bytes: &[u8]) -> Result<Content, Error> {
+        if font::begins(bytes) {
+            return Ok(Content::Polygons(Self::Ttf));
+        }
+        if dxf::begins(bytes) {
+            return Ok(Content::Polygons(Self::Dxf));
+        }
         if let [0 | 1, ..] = bytes {
             return Ok(Content::Polygons(Self::Wkb));
         }
@@ -101,6 +119,7 @@ impl Format {
             None => Err(Error::Empty),
             Some(b'[') => Ok(Content::Polygons(Self::Rings)),
             Some(b'{') => of_json(text, start),
+            Some(b'<') => Ok(Content::Polygons(Self::Svg)),
             Some(b'0') => Ok(Content::Polygons(Self::Wkb)),
             Some(c) if c.is_ascii_alphabetic() => Ok(Content::Polygons(Self::Wkt)),
             Some(_) => Err(Error::Unknown),

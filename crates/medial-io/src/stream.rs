@@ -46,7 +46,7 @@ pub fn read_stream<'a>(
         })),
         other => return Err(Error::Unreadable { format: other }),
     };
-    Ok(Layer { crs: None, len: None, parts })
+    Ok(Layer { crs: None, units: None, len: None, parts })
 }
 
 /// Whole lines of a source.

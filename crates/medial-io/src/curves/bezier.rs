@@ -47,6 +47,16 @@ impl Bezier {
         }
     }
 
+    pub(super) fn set_ends(&mut self, start: Option<Point>, end: Option<Point>) {
+        let [a, b] = self.ends;
+        self.ends = [start.unwrap_or(a), end.unwrap_or(b)];
+    }
+
+    pub(super) fn reversed(&self) -> Self {
+        let [a, b] = self.ends;
+        Self { points: self.points.iter().rev().copied().collect(), ends: [b, a] }
+    }
+
     pub fn map(&self, map: impl Fn(Point) -> Point) -> Self {
         let ends = self.ends.map(&map);
         let mut points: Vec<[f64; 3]> = self
@@ -67,6 +77,11 @@ impl Bezier {
     /// Its control points.
     pub(super) fn hull(&self) -> impl Iterator<Item = Point> + '_ {
         self.points.iter().map(|p| projected(*p)).chain(self.ends)
+    }
+
+    /// Its control points, the ends included.
+    pub fn control_points(&self) -> Vec<Point> {
+        self.points.iter().map(|p| projected(*p)).collect()
     }
 
     fn is_polynomial(&self) -> bool {

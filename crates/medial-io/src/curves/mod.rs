@@ -14,12 +14,14 @@
 //! 3. Others are cut into as many parts as the square root of the bound says, as it shrinks with the square
 //!    of the length.
 
+mod affine;
 mod arc;
 mod bernstein;
 mod bezier;
 mod nurbs;
 mod pieces;
 
+pub(crate) use affine::Affine;
 pub(crate) use arc::Arc;
 pub(crate) use bezier::Bezier;
 pub(crate) use nurbs::Nurbs;
@@ -127,8 +129,39 @@ impl Contour {
         }
     }
 
+    /// The same the other way round.
+    pub fn reversed(&self) -> Self {
+        let ends = self.segments.iter().rev().skip(1).map(Segment::end).chain([self.start]);
+        let segment = |(segment, end): (&Segment, Point)| match segment {
+            Segment::Line(_) => Segment::Line(end),
+            Segment::Bezier(curve) => Segment::Bezier(curve.reversed()),
+            Segment::Arc(arc) => Segment::Arc(arc.reversed()),
+        };
+        Self { start: self.end(), segments: self.segments.iter().rev().zip(ends).map(segment).collect() }
+    }
+
+    /// Moves its start to a place very near.
+    pub fn set_start(&mut self, start: Point) {
+        self.start = start;
+        match self.segments.first_mut() {
+            Some(Segment::Bezier(curve)) => curve.set_ends(Some(start), None),
+            Some(Segment::Arc(arc)) => arc.start = start,
+            _ => {}
+        }
+    }
+
+    /// Moves its end to a place very near.
+    pub fn set_end(&mut self, end: Point) {
+        match self.segments.last_mut() {
+            Some(Segment::Line(to)) => *to = end,
+            Some(Segment::Bezier(curve)) => curve.set_ends(None, Some(end)),
+            Some(Segment::Arc(arc)) => arc.end = end,
+            None => self.start = end,
+        }
+    }
+
     /// Points that span its box.
-    fn extremes(&self) -> Vec<Point> {
+    pub fn extremes(&self) -> Vec<Point> {
         let mut extremes = vec![self.start];
         for segment in &self.segments {
             match segment {
