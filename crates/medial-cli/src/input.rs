@@ -1,10 +1,10 @@
 use crate::failure::{Failure, plain};
 use medial_io::axis_document::{self, AxisDocument};
-use medial_io::{Content, Error, Format, Layer};
+use medial_io::{Content, Error, Format, Layer, ReadOptions, svg};
 use std::cell::RefCell;
-use std::fs::File;
+use std::fs::{self, File};
 use std::io::{self, BufRead, BufReader, Cursor, Read as _};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// An input, read whole.
 pub struct Input {
@@ -19,7 +19,9 @@ type Source = Box<dyn BufRead + Send>;
 pub struct Polygons {
     /// How messages name it.
     pub name: String,
-    format: Format,
+    /// The format that was named or found out.
+    pub format: Format,
+    options: ReadOptions,
     content: Features,
 }
 
@@ -79,15 +81,23 @@ impl Opened {
     /// Opens a file, or standard input for `-`. The format is the one asked for, else that of the
     /// extension, else told by the content. What has one feature after the other is read later, as it is
     /// needed.
-    pub fn new(path: &Path, from: Option<Format>) -> Result<Self, Failure> {
+    ///
+    /// Text of drawings takes the fonts in these files, or without any those of the system.
+    pub fn new(
+        path: &Path,
+        from: Option<Format>,
+        mut options: ReadOptions,
+        fonts: &[PathBuf],
+    ) -> Result<Self, Failure> {
         let name = name(path);
         let failed = |error: io::Error| unreadable(&name, &error);
         let mut source = open(path).map_err(failed)?;
         let mut bytes = Vec::new();
         let format = match from.or_else(|| Format::from_path(path).ok()) {
-            Some(format @ (Format::Csv | Format::Svg | Format::Png)) => {
+            Some(format @ (Format::Csv | Format::Png)) => {
                 let why = format!(
-                    "the format {format} is written only; polygons come as geojson, geojsonl, wkt, wkb or rings"
+                    "the format {format} is written only; polygons come as geojson, geojsonl, wkt, wkb, rings, \
+                     svg, dxf or ttf"
                 );
                 let usage = from.is_some();
                 return Err(if usage { Failure::Usage(why) } else { Failure::file(&name, why) });
@@ -115,9 +125,12 @@ impl Opened {
             Features::Stream(RefCell::new(Some(source)))
         } else {
             source.read_to_end(&mut bytes).map_err(failed)?;
+            if format == Format::Svg && svg::has_text(&bytes) {
+                options.fonts = self::fonts(fonts)?;
+            }
             Features::Whole(bytes)
         };
-        Ok(Self::Polygons(Polygons { name, format, content }))
+        Ok(Self::Polygons(Polygons { name, format, options, content }))
     }
 
     /// The polygons, also those of axis documents if they may be; else that they are none.
@@ -125,7 +138,9 @@ impl Opened {
         match self {
             Self::Polygons(polygons) => Ok(polygons),
             Self::Axes(Input { name, bytes }) if documents == Documents::AsPolygons => {
-                Ok(Polygons { name, format: Format::Json, content: Features::Axes(bytes) })
+                let options = ReadOptions::default();
+                let content = Features::Axes(bytes);
+                Ok(Polygons { name, format: Format::Json, options, content })
             }
             Self::Axes(input) => {
                 let what = match Format::of_content(&input.bytes) {
@@ -142,7 +157,7 @@ impl Polygons {
     /// The features; those of a stream can be had once.
     pub fn layer(&self) -> Result<Layer<'_>, Failure> {
         let layer = match &self.content {
-            Features::Whole(bytes) => medial_io::read(self.format, bytes),
+            Features::Whole(bytes) => medial_io::read_with(self.format, bytes, &self.options),
             Features::Axes(bytes) => axis_document::of_bytes(bytes).map(axis_document::polygons),
             Features::Stream(source) => {
                 let source = source.take().unwrap_or_else(|| Box::new(io::empty()));
@@ -151,6 +166,16 @@ impl Polygons {
         };
         layer.map_err(|error| Failure::file(&self.name, error))
     }
+}
+
+fn fonts(files: &[PathBuf]) -> Result<svg::Fonts, Failure> {
+    if files.is_empty() {
+        return Ok(svg::Fonts::of_system());
+    }
+    let with = |fonts: svg::Fonts, file: &PathBuf| {
+        Ok(fonts.with(fs::read(file).map_err(|error| unreadable(&name(file), &error))?))
+    };
+    files.iter().try_fold(svg::Fonts::default(), with)
 }
 
 fn open(path: &Path) -> io::Result<Source> {

@@ -50,7 +50,8 @@ const PROFILES: &[Format] =
 /// `medial clearance`.
 pub fn run(args: &ClearanceArgs) -> Result<Status, Failure> {
     args.region.check()?;
-    let run = Run::new(&args.common)?;
+    let mut run = Run::new(&args.common)?;
+    run.tolerance = args.tolerance;
     match (args.profile, args.together) {
         (true, _) => profiles(args, run),
         (false, true) => together(args, run),

@@ -2,7 +2,7 @@
 
 use super::axis::format_of;
 use super::features::Run;
-use super::sink::Sink;
+use super::sink::{Sink, head};
 use crate::args::Target;
 use crate::failure::{Failure, Status};
 use crate::input::Polygons;
@@ -30,7 +30,7 @@ pub struct Plan<'a> {
 
 /// Formats of lines.
 pub const LINES: &[Format] =
-    &[Format::GeoJson, Format::GeoJsonLines, Format::Csv, Format::Wkt, Format::Wkb];
+    &[Format::GeoJson, Format::GeoJsonLines, Format::Csv, Format::Wkt, Format::Wkb, Format::Dxf];
 
 /// Formats of polygons.
 pub const POLYGONS: &[Format] = &record::FORMATS;
@@ -61,8 +61,14 @@ impl Plan<'_> {
     }
 
     /// A place for the records.
-    pub fn sink(&self, format: Format, crs: Option<medial_io::Json>) -> Result<Sink, Failure> {
-        Sink::create(self.target.output.as_deref(), format, record::header(self.columns), crs)
+    pub fn sink(
+        &self,
+        format: Format,
+        crs: Option<medial_io::Json>,
+        units: Option<&str>,
+    ) -> Result<Sink, Failure> {
+        let head = head(format, record::header(self.columns), units);
+        Sink::create(self.target.output.as_deref(), format, head, crs)
     }
 
     /// Calls `work` for each valid feature of an input and writes the records that it gives.
@@ -98,7 +104,7 @@ impl Plan<'_> {
     ) -> Result<Status, Failure> {
         let format = self.format()?;
         let layer = timed(&mut run.stages.read, || input.layer())?;
-        let mut sink = self.sink(format, layer.crs.clone())?;
+        let mut sink = self.sink(format, layer.crs.clone(), layer.units)?;
         let mut parts = Vec::new();
         let mut write = Duration::ZERO;
         let (at_once, threads) = run.threads(&layer);

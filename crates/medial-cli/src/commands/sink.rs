@@ -5,7 +5,7 @@ use medial::domain::Domain;
 use medial::ops::Significance;
 use medial_io::svg::{Options, Scene};
 use medial_io::{
-    Drawing, Feature, Format, Json, axis_document, csv, domain_tolerance, geojson, png, svg, wkb,
+    Drawing, Feature, Format, Json, axis_document, csv, domain_tolerance, dxf, geojson, png, svg, wkb,
     wkt,
 };
 use std::path::Path;
@@ -14,10 +14,12 @@ use std::path::Path;
 pub struct Sink {
     output: Output,
     format: Format,
-    /// The row of column names of CSV.
-    columns: String,
+    /// The row of column names of CSV, or what comes before the entities of DXF.
+    head: String,
     crs: Option<Json>,
     begun: bool,
+    /// How many entities of DXF have a handle.
+    n_handles: u64,
 }
 
 /// Appends the axes of a feature, each with what was measured, in a format, or gives what to draw of them.
@@ -63,6 +65,11 @@ fn encode_one(
             return None;
         }
         Format::Wkt => wkt::write(&axis, drawing),
+        Format::Dxf => {
+            let mut entities = dxf::Entities::default();
+            entities.axis(&axis, drawing.keypoints, drawing.radius_as_z);
+            entities.into_text()
+        }
         Format::Csv => csv::rows(feature, &axis, measured, drawing),
         Format::Svg | Format::Png => {
             return Some(Scene { boundary: Vec::new(), axis });
@@ -90,10 +97,11 @@ impl Sink {
     pub fn create(
         path: Option<&Path>,
         format: Format,
-        columns: String,
+        head: String,
         crs: Option<Json>,
     ) -> Result<Self, Failure> {
-        Ok(Self { output: Output::create(path)?, format, columns, crs, begun: false })
+        let output = Output::create(path)?;
+        Ok(Self { output, format, head, crs, begun: false, n_handles: 0 })
     }
 
     /// Writes what [`encode`] made of axes that follow one another.
@@ -105,6 +113,9 @@ impl Sink {
             bytes = bytes.strip_prefix(geojson::SEPARATOR).unwrap_or(bytes);
         }
         self.begin()?;
+        if self.format == Format::Dxf {
+            return self.output.write(&dxf::number(bytes, &mut self.n_handles));
+        }
         self.output.write(bytes)
     }
 
@@ -114,7 +125,7 @@ impl Sink {
         }
         match self.format {
             Format::GeoJson => self.output.write(geojson::header(self.crs.as_ref()).as_bytes()),
-            Format::Csv => self.output.write(self.columns.as_bytes()),
+            Format::Csv | Format::Dxf => self.output.write(self.head.as_bytes()),
             _ => Ok(()),
         }
     }
@@ -125,9 +136,17 @@ impl Sink {
         if self.format == Format::GeoJson {
             self.output.write(geojson::FOOTER.as_bytes())?;
         }
+        if self.format == Format::Dxf {
+            self.output.write(dxf::FOOTER.as_bytes())?;
+        }
         self.output.write(picture)?;
         self.output.finish()
     }
+}
+
+/// What comes first in a format: the names of columns, or a head with the unit of the input.
+pub fn head(format: Format, columns: String, units: Option<&str>) -> String {
+    if format == Format::Dxf { dxf::header(units) } else { columns }
 }
 
 /// The picture of all axes; nothing for other formats.

@@ -23,6 +23,7 @@ pub fn run(args: &WallsArgs) -> Result<Status, Failure> {
         return Err(Failure::Usage(why));
     }
     let mut run = Run::new(&args.common)?;
+    run.tolerance = args.tolerance;
     let plan = Plan {
         target: &args.target,
         thing: "walls",
