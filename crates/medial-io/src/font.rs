@@ -143,7 +143,8 @@ fn laid_out(font: &FontRef, text: &str) -> Result<Vec<Result<Glyph, Error>>, Err
         buffer.push_str(line);
         buffer.guess_segment_properties();
         let shaped = shaper.shape(buffer, harfrust::ShapeOptions::new());
-        let mut ends: Vec<usize> = shaped.glyph_infos().iter().map(|i| i.cluster as usize).collect();
+        let mut ends: Vec<usize> =
+            shaped.glyph_infos().iter().map(|i| i.cluster as usize).collect();
         ends.push(line.len());
         ends.sort_unstable();
         ends.dedup();

@@ -41,6 +41,7 @@ const FORMATS: &[Format] = &[
     Format::Csv,
     Format::Wkt,
     Format::Wkb,
+    Format::Dxf,
     Format::Svg,
     Format::GCode,
 ];

@@ -136,14 +136,8 @@ fn asked(args: &CenterlineArgs) -> Result<CenterlineOptions, Failure> {
 fn output_format(args: &CenterlineArgs) -> Result<Format, Failure> {
     let file = args.output.as_deref().filter(|path| path.as_os_str() != "-");
     let format = format_of(args.to, file)?;
-    let known = [
-        Format::GeoJson,
-        Format::GeoJsonLines,
-        Format::Wkt,
-        Format::Csv,
-        Format::Svg,
-        Format::Dxf,
-    ];
+    let known =
+        [Format::GeoJson, Format::GeoJsonLines, Format::Wkt, Format::Csv, Format::Svg, Format::Dxf];
     if !known.contains(&format) {
         let why = format!(
             "centerlines are written as geojson, geojsonl, wkt, csv, svg or dxf, not as {format}"

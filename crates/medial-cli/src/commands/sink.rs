@@ -5,8 +5,8 @@ use medial::domain::Domain;
 use medial::ops::Significance;
 use medial_io::svg::{Options, Scene};
 use medial_io::{
-    Drawing, Feature, Format, Json, axis_document, csv, domain_tolerance, dxf, geojson, png, svg, wkb,
-    wkt,
+    Drawing, Feature, Format, Json, axis_document, csv, domain_tolerance, dxf, geojson, png, svg,
+    wkb, wkt,
 };
 use std::path::Path;
 

@@ -13,8 +13,15 @@ use medial_io::{Format, domain_tolerance};
 
 const COLUMNS: &[&str] = &["length", "width_min", "width_max", "width_mean", "closed"];
 
-const FORMATS: &[Format] =
-    &[Format::GeoJson, Format::GeoJsonLines, Format::Csv, Format::Wkt, Format::Wkb, Format::Svg];
+const FORMATS: &[Format] = &[
+    Format::GeoJson,
+    Format::GeoJsonLines,
+    Format::Csv,
+    Format::Wkt,
+    Format::Wkb,
+    Format::Dxf,
+    Format::Svg,
+];
 
 /// `medial walls`.
 pub fn run(args: &WallsArgs) -> Result<Status, Failure> {

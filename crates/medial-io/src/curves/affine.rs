@@ -56,14 +56,8 @@ impl Affine {
 
     pub fn inverse(&self) -> Option<Self> {
         let d = self.determinant();
-        let linear = Self {
-            a: self.d / d,
-            b: -self.b / d,
-            c: -self.c / d,
-            d: self.a / d,
-            e: 0.0,
-            f: 0.0,
-        };
+        let linear =
+            Self { a: self.d / d, b: -self.b / d, c: -self.c / d, d: self.a / d, e: 0.0, f: 0.0 };
         let origin = linear.linear(Point::new(-self.e, -self.f));
         let inverse = Self { e: origin.x, f: origin.y, ..linear };
         inverse.is_finite().then_some(inverse)

@@ -232,10 +232,8 @@ fn inside(from: f64, sweep: f64, first: f64, step: f64) -> Vec<f64> {
     let (low, high) = (from.min(from + sweep), from.max(from + sweep));
     let k = ((low - first) / step).floor();
     let n = ((high - low) / step).ceil() as usize + 2;
-    let mut found: Vec<f64> = (0..n)
-        .map(|i| first + (k + i as f64) * step)
-        .filter(|t| low < *t && *t < high)
-        .collect();
+    let mut found: Vec<f64> =
+        (0..n).map(|i| first + (k + i as f64) * step).filter(|t| low < *t && *t < high).collect();
     if sweep < 0.0 {
         found.reverse();
     }

@@ -126,8 +126,7 @@ impl Bezier {
         let mut extremes = self.ends.to_vec();
         if let Some(polynomials) = self.polynomials() {
             let roots = self.velocity(&polynomials).into_iter().flatten();
-            extremes
-                .extend(roots.flat_map(|velocity| velocity.roots()).map(|t| self.point_at(t)));
+            extremes.extend(roots.flat_map(|velocity| velocity.roots()).map(|t| self.point_at(t)));
         }
         extremes
     }

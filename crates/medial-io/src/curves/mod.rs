@@ -137,7 +137,10 @@ impl Contour {
             Segment::Bezier(curve) => Segment::Bezier(curve.reversed()),
             Segment::Arc(arc) => Segment::Arc(arc.reversed()),
         };
-        Self { start: self.end(), segments: self.segments.iter().rev().zip(ends).map(segment).collect() }
+        Self {
+            start: self.end(),
+            segments: self.segments.iter().rev().zip(ends).map(segment).collect(),
+        }
     }
 
     /// Moves its start to a place very near.

@@ -190,8 +190,7 @@ fn splines_are_the_same_curve_as_bezier_curves() {
         vec![0., 0., 0., 0., 1., 2., 2., 5., 5., 5., 5.],
         vec![0., 0.5, 1., 2., 3., 4.5, 5., 6., 8., 9., 11.],
     ] {
-        let spline =
-            Nurbs { degree: 3, knots, points: points.to_vec(), weights: weights.clone() };
+        let spline = Nurbs { degree: 3, knots, points: points.to_vec(), weights: weights.clone() };
         let spans: Vec<[f64; 2]> =
             spline.knots[3..=7].windows(2).filter(|w| w[0] < w[1]).map(|w| [w[0], w[1]]).collect();
         let curves = spline.beziers().unwrap();

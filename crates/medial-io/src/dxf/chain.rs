@@ -9,6 +9,9 @@ use std::collections::HashMap;
 /// It makes up for angles and coordinates with few digits: a micrometre in a drawing of a metre.
 const GAP: f64 = 1e-6;
 
+/// Gaps of this share of the box are not worth telling: ends of arcs follow from angles.
+const ROUNDING: f64 = 1e-12;
+
 /// Lines that were joined.
 #[derive(Debug)]
 pub(super) struct Chain {
@@ -16,7 +19,7 @@ pub(super) struct Chain {
     pub closed: bool,
     /// Which lines it is made of.
     pub parts: Vec<usize>,
-    /// The widest gap between ends that were taken for one.
+    /// The widest gap between ends that were taken for one, 0 if it is only rounding.
     pub gap: f64,
 }
 
@@ -35,6 +38,7 @@ pub(super) fn chains(lines: &[Contour]) -> Vec<Chain> {
     let mut walk = Walk {
         lines,
         nodes: &nodes,
+        rounding: ROUNDING * f64::max(size.x, size.y),
         seen: vec![0; around.len()],
         on_path: vec![None; around.len()],
         around,
@@ -100,6 +104,7 @@ impl Nodes {
 struct Walk<'a> {
     lines: &'a [Contour],
     nodes: &'a Nodes,
+    rounding: f64,
     around: Vec<Vec<usize>>,
     /// How many lines around each node were looked at.
     seen: Vec<usize>,
@@ -170,6 +175,7 @@ impl Walk<'_> {
         }
         if let Some(contour) = contour {
             let parts = path.iter().map(|(line, _)| *line).collect();
+            let gap = if gap > self.rounding { gap } else { 0.0 };
             self.chains.push(Chain { contour, closed, parts, gap });
         }
     }
@@ -224,8 +230,7 @@ mod tests {
         let tail = line((2., 2.), (5., 2.));
         let lines: Vec<Contour> = square(0.).into_iter().chain([tail]).chain(square(1.)).collect();
         let found = chains(&lines);
-        let closed: Vec<usize> =
-            found.iter().filter(|c| c.closed).map(|c| c.parts.len()).collect();
+        let closed: Vec<usize> = found.iter().filter(|c| c.closed).map(|c| c.parts.len()).collect();
         assert_eq!(closed, [4, 4], "{found:?}");
         let open: Vec<&Chain> = found.iter().filter(|c| !c.closed).collect();
         assert!(open.len() == 1 && open[0].parts == [4]);

@@ -161,7 +161,8 @@ impl<'a> Entity<'a> {
         for part in self.parts.chunk_by(|_, next| next.code != 0) {
             let vertex = Fields(part);
             // Not the frame of a spline.
-            if part.first().is_some_and(|g| g.is(0, "VERTEX")) && vertex.whole_or(70, 0)? & 16 == 0 {
+            if part.first().is_some_and(|g| g.is(0, "VERTEX")) && vertex.whole_or(70, 0)? & 16 == 0
+            {
                 vertices.push((vertex.point(10)?, vertex.real_or(42, 0.0)?));
             }
         }
@@ -273,8 +274,7 @@ fn spline(fields: &Fields) -> Result<Drawn, Error> {
         return Err(Error::Curve { why: format!("a spline cannot be read: {why}") });
     }
     let degree = usize::try_from(fields.whole_or(71, 3)?).unwrap_or(0);
-    let spline =
-        Nurbs { degree, knots: fields.reals(40)?, points, weights: fields.reals(41)? };
+    let spline = Nurbs { degree, knots: fields.reals(40)?, points, weights: fields.reals(41)? };
     Ok(Drawn::Open(of_spline(&spline)?))
 }
 

@@ -73,7 +73,9 @@ impl<'a> Group<'a> {
 /// All groups of a file, up to its end or the first that breaks the rules.
 pub(super) fn groups(bytes: &[u8]) -> Result<Vec<Group<'_>>, Error> {
     match bytes.strip_prefix(BINARY) {
-        Some(rest) => Binary { bytes, at: bytes.len() - rest.len(), wide: rest.get(1) == Some(&0) }.all(),
+        Some(rest) => {
+            Binary { bytes, at: bytes.len() - rest.len(), wide: rest.get(1) == Some(&0) }.all()
+        }
         None => of_text(bytes),
     }
 }

@@ -112,7 +112,8 @@ impl<'a> File<'a> {
             let end = block.iter().position(|g| g.is(0, "ENDBLK")).unwrap_or(block.len());
             let (block, after) = block.split_at(end);
             rest = after;
-            let head = block.iter().skip(1).position(|g| g.code == 0).map_or(block.len(), |k| k + 1);
+            let head =
+                block.iter().skip(1).position(|g| g.code == 0).map_or(block.len(), |k| k + 1);
             let fields = Fields(&block[..head]);
             if let Some(name) = fields.find(2) {
                 let base = fields.point(10).unwrap_or_default();
@@ -259,8 +260,10 @@ impl Drawing {
             _ => turn.to_radians().sin_cos(),
         };
         let rotation = Affine { a: cos, b: sin, c: -sin, d: cos, e: 0.0, f: 0.0 };
-        let outer = place.to_plane.after(&fields.plane(30)?).after(&Affine::translation(at.x, at.y));
-        let inner = Affine::scaling(sx, sy).after(&Affine::translation(-block.base.x, -block.base.y));
+        let outer =
+            place.to_plane.after(&fields.plane(30)?).after(&Affine::translation(at.x, at.y));
+        let inner =
+            Affine::scaling(sx, sy).after(&Affine::translation(-block.base.x, -block.base.y));
         for row in 0..n_rows {
             for column in 0..n_columns {
                 if *n_drawn > MOST {
@@ -387,8 +390,10 @@ impl Source {
 
 impl Item {
     fn of(source: &Source, polygons: Option<Result<Vec<Vec<Contour>>, Error>>) -> Self {
-        let mut properties =
-            vec![("layer".to_owned(), quoted(&source.layer)), ("entity".to_owned(), quoted(&source.name))];
+        let mut properties = vec![
+            ("layer".to_owned(), quoted(&source.layer)),
+            ("entity".to_owned(), quoted(&source.name)),
+        ];
         let mut add = |name: &str, value: Option<Json>| {
             properties.extend(value.map(|value| (name.to_owned(), value)));
         };

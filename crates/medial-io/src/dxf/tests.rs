@@ -146,7 +146,10 @@ fn what_is_no_drawing_is_refused() {
     assert!(error(b"POLYGON ((0 0))").starts_with("line 1, column 1: a group code is needed"));
     assert!(error(b"0\nSECTION\n2").starts_with("line 3, column 1: the value of the group"));
     assert!(error(b"AutoCAD Binary DXF\r\n\x1a\0\0\0SECTION").contains("cut off"));
-    assert!(matches!(read(b"0\nLINE\n", &ReadOptions::default()).err(), Some(Error::Syntax { .. })));
+    assert!(matches!(
+        read(b"0\nLINE\n", &ReadOptions::default()).err(),
+        Some(Error::Syntax { .. })
+    ));
     assert!(begins(b"999\nhi\r\n  0\r\nSECTION\r\n") && !begins(b"0103") && !begins(b""));
 }
 

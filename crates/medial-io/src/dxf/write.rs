@@ -51,7 +51,8 @@ pub fn header(units: Option<&str>) -> String {
          9\n$INSUNITS\n70\n{number}\n9\n$MEASUREMENT\n70\n{metric}\n0\nENDSEC\n0\nSECTION\n2\nTABLES\n"
     );
     table(&mut out, "VPORT", 0x8, &[]);
-    let ltype = |name: &str, text: &str| format!("2\n{name}\n70\n0\n3\n{text}\n72\n65\n73\n0\n40\n0.0\n");
+    let ltype =
+        |name: &str, text: &str| format!("2\n{name}\n70\n0\n3\n{text}\n72\n65\n73\n0\n40\n0.0\n");
     let ltypes = [
         (0x14, "LTYPE", "AcDbLinetypeTableRecord", ltype("ByBlock", "")),
         (0x15, "LTYPE", "AcDbLinetypeTableRecord", ltype("ByLayer", "")),
@@ -67,7 +68,8 @@ pub fn header(units: Option<&str>) -> String {
         })
         .collect();
     table(&mut out, "LAYER", 0x2, &layers);
-    let style = "2\nStandard\n70\n0\n40\n0.0\n41\n1.0\n50\n0.0\n71\n0\n42\n2.5\n3\ntxt\n4\n\n".to_owned();
+    let style =
+        "2\nStandard\n70\n0\n40\n0.0\n41\n1.0\n50\n0.0\n71\n0\n42\n2.5\n3\ntxt\n4\n\n".to_owned();
     table(&mut out, "STYLE", 0x3, &[(0x11, "STYLE", "AcDbTextStyleTableRecord", style)]);
     table(&mut out, "VIEW", 0x6, &[]);
     table(&mut out, "UCS", 0x7, &[]);
@@ -304,8 +306,10 @@ impl Entities {
     fn spline(&mut self, layer: &str, points: [(Point, f64); 3], weight: f64) {
         self.begin("SPLINE", layer, "AcDbSpline");
         let is_rational = weight != 1.0;
-        let flags = if is_rational { 4 } else { 0 } + if points.iter().all(|p| p.1 == 0.0) { 8 } else { 0 };
-        let _ = write!(self.text, "70\n{flags}\n71\n2\n72\n6\n73\n3\n74\n0\n42\n1e-10\n43\n1e-10\n");
+        let flags =
+            if is_rational { 4 } else { 0 } + if points.iter().all(|p| p.1 == 0.0) { 8 } else { 0 };
+        let _ =
+            write!(self.text, "70\n{flags}\n71\n2\n72\n6\n73\n3\n74\n0\n42\n1e-10\n43\n1e-10\n");
         for knot in [0, 0, 0, 1, 1, 1] {
             let _ = write!(self.text, "40\n{knot}.0\n");
         }

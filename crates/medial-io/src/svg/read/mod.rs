@@ -79,14 +79,8 @@ pub fn read<'a>(text: &str, options: &ReadOptions) -> Result<Layer<'a>, Error> {
         drawn: Vec::new(),
         n_visited: 0,
     };
-    let place = Place {
-        to_page: Affine::FLIP,
-        view,
-        layer: None,
-        group: None,
-        clipped: false,
-        depth: 0,
-    };
+    let place =
+        Place { to_page: Affine::FLIP, view, layer: None, group: None, clipped: false, depth: 0 };
     let style = Style::default().child(root, &walker.sheet);
     walker.children(root, &style, &place);
     let drawn = walker.drawn;
@@ -281,7 +275,8 @@ impl<'a, 'input> Walker<'a, 'input> {
     fn used(&mut self, node: Node<'a, 'input>, style: &Style, mut place: Place<'a>) {
         let target = href(node).and_then(|id| self.ids.get(id).copied());
         let Some(target) = target else {
-            let why = format!("`use` names {}, which is not there", href(node).unwrap_or("nothing"));
+            let why =
+                format!("`use` names {}, which is not there", href(node).unwrap_or("nothing"));
             return self.broken(node, &why);
         };
         let length = |name: &str, along: f64| self.length(node, name, style, along);
@@ -400,12 +395,10 @@ impl<'a, 'input> Walker<'a, 'input> {
         };
         // Its own transform is in the source, and in the place.
         let to_page = match style.get("transform").and_then(|t| t.parse::<Transform>().ok()) {
-            Some(Transform { a, b, c, d, e, f }) => {
-                match (Affine { a, b, c, d, e, f }).inverse() {
-                    Some(back) => place.to_page.after(&back),
-                    None => return,
-                }
-            }
+            Some(Transform { a, b, c, d, e, f }) => match (Affine { a, b, c, d, e, f }).inverse() {
+                Some(back) => place.to_page.after(&back),
+                None => return,
+            },
             None => place.to_page,
         };
         let found = text::glyphs(self.document, node, style, self.sheets, self.fonts);

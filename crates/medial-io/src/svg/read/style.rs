@@ -115,7 +115,8 @@ impl Style {
     /// The paint by this property, if it paints; a `default` where nothing is said.
     pub fn paint(&self, name: &str, default: Option<&str>) -> Option<String> {
         let paint = self.get(name).or(default)?;
-        if matches!(paint, "none" | "transparent") || self.opacity(&format!("{name}-opacity")) == 0.0
+        if matches!(paint, "none" | "transparent")
+            || self.opacity(&format!("{name}-opacity")) == 0.0
         {
             return None;
         }

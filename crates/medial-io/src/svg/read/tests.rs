@@ -177,7 +177,11 @@ fn absurd_drawings_end() {
 fn what_is_no_drawing_is_refused() {
     let error = |text: &str| read(text, &ReadOptions::default()).err().unwrap().to_string();
     assert_eq!(error(" "), "the input is empty");
-    assert!(error("<svg>\n<g></svg>").starts_with("line 2, column "), "{}", error("<svg>\n<g></svg>"));
+    assert!(
+        error("<svg>\n<g></svg>").starts_with("line 2, column "),
+        "{}",
+        error("<svg>\n<g></svg>")
+    );
     assert!(error("<html/>").contains("the outermost element is `html`, not `svg`"));
 }
 
@@ -193,7 +197,10 @@ fn text_without_fonts_is_told() {
 
 #[test]
 fn a_picture_of_ours_reads_back() {
-    let scene = svg::Scene { boundary: crate::samples::rectangle_rings(), axis: crate::samples::rectangle() };
+    let scene = svg::Scene {
+        boundary: crate::samples::rectangle_rings(),
+        axis: crate::samples::rectangle(),
+    };
     let picture = svg::write(&[scene], &svg::Options::default());
     let read: Vec<Feature> =
         read(&picture, &ReadOptions::default()).unwrap().filter_map(Result::ok).collect();

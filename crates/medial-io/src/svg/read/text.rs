@@ -90,9 +90,8 @@ fn alone(document: &Document, node: Node, style: &Style, sheets: &str) -> String
     text.push_str("</style><defs>");
     // Paths that the text runs along.
     for part in node.descendants().filter(Node::is_element) {
-        let target = super::href(part).and_then(|id| {
-            document.descendants().find(|other| other.attribute("id") == Some(id))
-        });
+        let target = super::href(part)
+            .and_then(|id| document.descendants().find(|other| other.attribute("id") == Some(id)));
         if let Some(path) = target.filter(|target| target.tag_name().name() == "path") {
             text.push_str(&document.input_text()[path.range()]);
         }
