@@ -29,7 +29,7 @@ pub(super) fn nests(contours: &[&Contour]) -> Vec<Nest> {
     let mut holes: Vec<Nest> = (0..rings.len()).map(|k| vec![k]).collect();
     for k in 0..rings.len() {
         if around[k].len() % 2 == 1 {
-            let smallest = around[k].iter().copied().filter(|o| around[*o].len() % 2 == 0);
+            let smallest = around[k].iter().copied().filter(|o| around[*o].len().is_multiple_of(2));
             let outer = smallest.min_by(|a, b| rings[*a].area.total_cmp(&rings[*b].area));
             match outer {
                 Some(outer) => holes[outer].push(k),

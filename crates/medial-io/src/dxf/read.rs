@@ -168,11 +168,36 @@ struct Source {
     block: Option<String>,
 }
 
+/// An outline or a part of one, with its place in the drawing.
+struct Line {
+    order: usize,
+    source: Source,
+    contour: Contour,
+}
+
+/// A closed outline of some lines, and the widest gap between them.
+struct Outline<'a> {
+    lines: Vec<&'a Line>,
+    contour: Contour,
+    gap: f64,
+}
+
+impl Outline<'_> {
+    /// The line that comes first in the drawing.
+    fn first(&self) -> Option<&Line> {
+        self.lines.iter().copied().min_by_key(|line| line.order)
+    }
+
+    fn order(&self) -> usize {
+        self.first().map_or(0, |line| line.order)
+    }
+}
+
 /// What a drawing draws, in its order.
 #[derive(Default)]
 struct Drawing {
-    closed: Vec<(usize, Source, Contour)>,
-    open: Vec<(usize, Source, Contour)>,
+    closed: Vec<Line>,
+    open: Vec<Line>,
     items: Vec<(usize, Item)>,
     n: usize,
 }
@@ -219,8 +244,12 @@ impl Drawing {
         }
         let to_plane = |contour: &Contour| place.to_plane.contour(contour);
         match entity.drawn() {
-            Ok(Drawn::Closed(contour)) => self.closed.push((order, source, to_plane(&contour))),
-            Ok(Drawn::Open(contour)) => self.open.push((order, source, to_plane(&contour))),
+            Ok(Drawn::Closed(contour)) => {
+                self.closed.push(Line { order, source, contour: to_plane(&contour) });
+            }
+            Ok(Drawn::Open(contour)) => {
+                self.open.push(Line { order, source, contour: to_plane(&contour) });
+            }
             Ok(Drawn::Filled(contours)) => {
                 let contours: Vec<Contour> = contours.iter().map(to_plane).collect();
                 let nests = nests(&contours.iter().collect::<Vec<_>>());
@@ -291,8 +320,8 @@ impl Drawing {
         let is_asked = |layer: &str| only.is_none_or(|only| only == layer);
         let mut by_layer: BTreeMap<String, [Vec<usize>; 2]> = BTreeMap::new();
         for (kind, list) in [&self.closed, &self.open].into_iter().enumerate() {
-            for (k, (_, source, _)) in list.iter().enumerate() {
-                by_layer.entry(source.layer.clone()).or_default()[kind].push(k);
+            for (k, line) in list.iter().enumerate() {
+                by_layer.entry(line.source.layer.clone()).or_default()[kind].push(k);
             }
         }
         self.items.retain(|(_, item)| is_asked(&item.layer()));
@@ -300,36 +329,38 @@ impl Drawing {
             if !is_asked(&layer) {
                 continue;
             }
-            // The outlines of the layer: numbers of their entities, what is said of them, gaps.
-            let mut outlines: Vec<(Vec<&(usize, Source, Contour)>, Contour, f64)> = Vec::new();
+            let mut outlines: Vec<Outline> = Vec::new();
             for k in closed {
-                outlines.push((vec![&self.closed[k]], self.closed[k].2.clone(), 0.0));
+                let line = &self.closed[k];
+                outlines.push(Outline {
+                    lines: vec![line],
+                    contour: line.contour.clone(),
+                    gap: 0.0,
+                });
             }
-            let lines: Vec<Contour> = open.iter().map(|k| self.open[*k].2.clone()).collect();
+            let lines: Vec<Contour> = open.iter().map(|k| self.open[*k].contour.clone()).collect();
             for chain in chains(&lines) {
-                let parts: Vec<_> = chain.parts.iter().map(|k| &self.open[open[*k]]).collect();
+                let lines: Vec<&Line> = chain.parts.iter().map(|k| &self.open[open[*k]]).collect();
+                let outline = Outline { lines, contour: chain.contour, gap: chain.gap };
                 if chain.closed {
-                    outlines.push((parts, chain.contour, chain.gap));
+                    outlines.push(outline);
                 } else {
-                    let (order, item) = unclosed(&parts, &chain.contour);
-                    self.items.push((order, item));
+                    self.items.extend(unclosed(&outline));
                 }
             }
-            let order = |parts: &[&(usize, Source, Contour)]| {
-                parts.iter().map(|part| part.0).min().unwrap_or(0)
-            };
-            outlines.sort_by_key(|(parts, ..)| order(parts));
-            for nest in nests(&outlines.iter().map(|outline| &outline.1).collect::<Vec<_>>()) {
-                let rings = nest.iter().map(|k| &outlines[*k]);
-                let first = nest.iter().map(|k| order(&outlines[*k].0)).min().unwrap_or(0);
+            outlines.sort_by_key(Outline::order);
+            for nest in nests(&outlines.iter().map(|outline| &outline.contour).collect::<Vec<_>>())
+            {
+                let rings = || nest.iter().map(|k| &outlines[*k]);
+                let first = rings().map(Outline::order).min().unwrap_or(0);
                 let outer = &outlines[nest[0]];
-                let Some(source) = outer.0.iter().min_by_key(|part| part.0) else { continue };
-                let contours = rings.clone().map(|ring| ring.1.clone()).collect();
-                let mut item = Item::of(&source.1, Some(Ok(vec![contours])));
-                if outer.0.len() > 1 {
-                    item.properties.push(("entities".to_owned(), whole(outer.0.len() as i64)));
+                let Some(line) = outer.first() else { continue };
+                let contours = rings().map(|ring| ring.contour.clone()).collect();
+                let mut item = Item::of(&line.source, Some(Ok(vec![contours])));
+                if outer.lines.len() > 1 {
+                    item.properties.push(("entities".to_owned(), whole(outer.lines.len() as i64)));
                 }
-                let gap = rings.map(|ring| ring.2).fold(0.0, f64::max);
+                let gap = rings().map(|ring| ring.gap).fold(0.0, f64::max);
                 if gap > 0.0 {
                     let text = format!("ends of lines that are up to {gap:e} apart are joined");
                     item.notes.push(Note { code: "gap_closed", text });
@@ -349,23 +380,23 @@ impl Drawing {
 }
 
 /// Lines that close nothing.
-fn unclosed(parts: &[&(usize, Source, Contour)], contour: &Contour) -> (usize, Item) {
-    let mut kinds: Vec<&str> = parts.iter().map(|part| part.1.name.as_str()).collect();
+fn unclosed(outline: &Outline) -> Option<(usize, Item)> {
+    let first = outline.first()?;
+    let mut kinds: Vec<&str> = outline.lines.iter().map(|line| line.source.name.as_str()).collect();
     kinds.sort_unstable();
     kinds.dedup();
-    let (a, b) = (contour.start, contour.end());
+    let (a, b) = (outline.contour.start, outline.contour.end());
     let what = format!(
         "a chain of {} {} on layer `{}` from ({}, {}) to ({}, {})",
-        parts.len(),
+        outline.lines.len(),
         kinds.join(", "),
-        parts[0].1.layer,
+        first.source.layer,
         a.x,
         a.y,
         b.x,
         b.y
     );
-    let first = parts.iter().min_by_key(|part| part.0).unwrap_or(&parts[0]);
-    (first.0, Item::of(&first.1, Some(Err(Error::OpenChain { what }))))
+    Some((first.order, Item::of(&first.source, Some(Err(Error::OpenChain { what })))))
 }
 
 impl Source {

@@ -214,10 +214,10 @@ impl<'a, 'input> Walker<'a, 'input> {
             }
             "use" => self.used(node, &style, place),
             "text" => self.text(node, &style, &place),
-            "path" | "rect" | "circle" | "ellipse" | "line" | "polyline" | "polygon" => {
-                if !style.is_invisible() {
-                    self.shape(node, &style, &place);
-                }
+            "path" | "rect" | "circle" | "ellipse" | "line" | "polyline" | "polygon"
+                if !style.is_invisible() =>
+            {
+                self.shape(node, &style, &place);
             }
             _ => {}
         }
@@ -344,7 +344,7 @@ impl<'a, 'input> Walker<'a, 'input> {
             .filter(|word| !word.is_empty())
             .filter_map(|word| self.value(word, style, diagonal))
             .collect();
-        if dashes.iter().any(|dash| !(*dash >= 0.0)) || dashes.iter().all(|dash| *dash == 0.0) {
+        if dashes.iter().any(|dash| *dash < 0.0) || dashes.iter().all(|dash| *dash == 0.0) {
             dashes.clear();
         }
         if dashes.len() % 2 == 1 {

@@ -36,17 +36,18 @@ pub(super) fn outline(parts: &[Subpath], pen: &Pen) -> Result<Vec<Contour>, Stri
     for part in parts {
         append(&mut line, part);
     }
-    let mut most: f64 = 0.0;
+    let (mut most, mut is_finite) = (0.0_f64, true);
     let mut length: f64 = 0.0;
     let mut last: Option<kurbo::Point> = None;
     for element in line.elements() {
         for p in points(element) {
             most = most.max(p.x.abs()).max(p.y.abs());
+            is_finite &= p.is_finite();
             length += last.map_or(0.0, |last| p.distance(last));
             last = Some(p);
         }
     }
-    if !(most <= MOST_LENGTH * pen.width) {
+    if !is_finite || most > MOST_LENGTH * pen.width {
         return Err("its stroke is too thin for its size, or a coordinate is no number".to_owned());
     }
     let size = kurbo::Shape::bounding_box(&line);
