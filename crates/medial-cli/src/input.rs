@@ -1,4 +1,5 @@
 use crate::failure::{Failure, plain};
+use crate::guard::guarded;
 use medial_io::axis_document::{self, AxisDocument};
 use medial_io::{Content, Error, Format, Layer, ReadOptions, svg};
 use std::cell::RefCell;
@@ -157,7 +158,11 @@ impl Polygons {
     /// The features; those of a stream can be had once.
     pub fn layer(&self) -> Result<Layer<'_>, Failure> {
         let layer = match &self.content {
-            Features::Whole(bytes) => medial_io::read_with(self.format, bytes, &self.options),
+            // Parsers of fonts may panic, which the reader catches.
+            Features::Whole(bytes) => {
+                guarded(|| medial_io::read_with(self.format, bytes, &self.options))
+                    .map_err(|panic| Failure::file(&self.name, panic))?
+            }
             Features::Axes(bytes) => axis_document::of_bytes(bytes).map(axis_document::polygons),
             Features::Stream(source) => {
                 let source = source.take().unwrap_or_else(|| Box::new(io::empty()));

@@ -100,8 +100,9 @@ fn dxf_that_is_written_reads_back() {
     assert!((area - exact).abs() < 1e-5, "{area} is not {exact}");
     // Handles are numbers of their own.
     let axis = medial_with(&["axis", "-", "--to", "dxf", "--keypoints"], &format!("{l}\n{l}"));
-    let mut handles: Vec<&str> = axis.text().split("\n5\n").skip(1).collect();
-    handles.iter_mut().for_each(|rest| *rest = rest.lines().next().unwrap());
+    let pairs: Vec<&str> = axis.text().lines().collect();
+    let handle = |pair: &[&'_ str]| matches!(pair[0], "5" | "105").then(|| pair[1].to_owned());
+    let mut handles: Vec<String> = pairs.chunks(2).filter_map(handle).collect();
     let n = handles.len();
     handles.sort_unstable();
     handles.dedup();

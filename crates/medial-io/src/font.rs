@@ -30,14 +30,15 @@ pub fn read<'a>(bytes: &[u8], options: &ReadOptions) -> Result<Layer<'a>, Error>
     if bytes.is_empty() {
         return Err(Error::Empty);
     }
-    let font = face(bytes, options.layer.as_deref())?;
-    let mut glyphs = match &options.text {
-        Some(text) => laid_out(&font, text)?,
-        None => all(&font),
-    };
-    if font.axes().iter().next().is_some()
-        && let Some(Ok(first)) = glyphs.first_mut()
-    {
+    let (mut glyphs, is_variable) = caught(|| {
+        let font = face(bytes, options.layer.as_deref())?;
+        let glyphs = match &options.text {
+            Some(text) => laid_out(&font, text)?,
+            None => all(&font),
+        };
+        Ok::<_, Error>((glyphs, font.axes().iter().next().is_some()))
+    })??;
+    if is_variable && let Some(Ok(first)) = glyphs.first_mut() {
         let text = "the font is variable; its default instance is taken".to_owned();
         first.notes.push(Note { code: "default_instance", text });
     }
@@ -48,6 +49,15 @@ pub fn read<'a>(bytes: &[u8], options: &ReadOptions) -> Result<Layer<'a>, Error>
         read.map_err(|error| FeatureError { feature: index, id: None, error })
     });
     Ok(Layer { len, ..Layer::new(features) })
+}
+
+/// What work with a font gives; its parser may panic where a font is broken (read-fonts 0.41 does on
+/// glyphs that are cut off).
+pub(crate) fn caught<T>(work: impl FnOnce() -> T) -> Result<T, Error> {
+    std::panic::catch_unwind(std::panic::AssertUnwindSafe(work)).map_err(|_| Error::Value {
+        place: "the font".to_owned(),
+        why: "a table of it is broken; take another font".to_owned(),
+    })
 }
 
 /// A glyph in its place.
@@ -193,13 +203,20 @@ fn drawn(
     id: GlyphId,
     outline: &skrifa::outline::OutlineGlyph,
 ) -> Result<Vec<Contour>, Error> {
-    let mut pen = Pen::default();
-    let settings = DrawSettings::unhinted(Size::unscaled(), LocationRef::default());
-    outline.draw(settings, &mut pen).map_err(|error| Error::Value {
+    let wrong = |why: String| Error::Value {
         place: format!("glyph {}", name(font, id)),
-        why: format!("its outline cannot be read: {error}"),
-    })?;
-    Ok(pen.contours)
+        why: format!("its outline cannot be read: {why}"),
+    };
+    let drawn = caught(|| {
+        let mut pen = Pen::default();
+        let settings = DrawSettings::unhinted(Size::unscaled(), LocationRef::default());
+        outline.draw(settings, &mut pen).map(|_| pen.contours)
+    });
+    match drawn {
+        Ok(Ok(contours)) => Ok(contours),
+        Ok(Err(error)) => Err(wrong(error.to_string())),
+        Err(_) => Err(wrong("it is cut off".to_owned())),
+    }
 }
 
 #[derive(Default)]

@@ -5,6 +5,7 @@
 
 use super::style::Style;
 use crate::curves::{Affine, Contour};
+use crate::font::caught;
 use medial::geom::Point;
 use roxmltree::{Document, Node};
 use std::fmt::Write as _;
@@ -70,11 +71,14 @@ pub(super) fn glyphs(
         },
         ..usvg::Options::default()
     };
-    let mut contours = Vec::new();
-    if let Ok(tree) = Tree::from_str(&alone, &options) {
-        add(tree.root(), &mut contours);
-    }
-    contours
+    let drawn = caught(|| {
+        let mut contours = Vec::new();
+        if let Ok(tree) = Tree::from_str(&alone, &options) {
+            add(tree.root(), &mut contours);
+        }
+        contours
+    });
+    drawn.unwrap_or_default()
 }
 
 /// A document with nothing but a text.
