@@ -1,8 +1,9 @@
 use crate::failure::{Failure, plain};
+use crate::guard::guarded;
 use medial_io::axis_document::{self, AxisDocument};
-use medial_io::{Content, Error, Format, Layer, ReadOptions};
+use medial_io::{Content, Error, Format, Layer, ReadOptions, svg};
 use std::cell::RefCell;
-use std::fs::File;
+use std::fs::{self, File};
 use std::io::{self, BufRead, BufReader, Cursor, Read as _};
 use std::path::{Path, PathBuf};
 
@@ -19,7 +20,9 @@ type Source = Box<dyn BufRead + Send>;
 pub struct Polygons {
     /// How messages name it.
     pub name: String,
-    format: Format,
+    /// The format that was named or found out.
+    pub format: Format,
+    options: ReadOptions,
     content: Features,
 }
 
@@ -42,7 +45,7 @@ pub enum Documents {
 enum Features {
     Whole(Vec<u8>),
     /// In a file that is read by its path.
-    File(PathBuf, ReadOptions),
+    File(PathBuf),
     /// Axis documents.
     Axes(Vec<u8>),
     /// Not read yet, or being read.
@@ -82,8 +85,14 @@ impl Opened {
     /// extension, else told by the content. What has one feature after the other is read later, as it is
     /// needed.
     ///
-    /// A layer can be chosen of what has layers; else it must have the name of the file.
-    pub fn new(path: &Path, from: Option<Format>, options: &ReadOptions) -> Result<Self, Failure> {
+    /// A layer can be chosen of what has layers; else it must have the name of the file. Text of drawings
+    /// takes the fonts in these files, or without any those of the system.
+    pub fn new(
+        path: &Path,
+        from: Option<Format>,
+        mut options: ReadOptions,
+        fonts: &[PathBuf],
+    ) -> Result<Self, Failure> {
         let name = name(path);
         let known = from.or_else(|| Format::from_path(path).ok());
         if let Some(format) = known.filter(|format| format.is_table()) {
@@ -94,9 +103,10 @@ impl Opened {
         let mut source = open(path).map_err(failed)?;
         let mut bytes = Vec::new();
         let format = match known {
-            Some(format @ (Format::Csv | Format::Svg | Format::Png)) => {
+            Some(format @ (Format::Csv | Format::Png)) => {
                 let why = format!(
-                    "the format {format} is written only; polygons come as geojson, geojsonl, wkt, wkb, rings, gpkg, shp, fgb or parquet"
+                    "the format {format} is written only; polygons come as geojson, geojsonl, wkt, wkb, rings, \
+                     gpkg, shp, fgb, parquet, svg, dxf or ttf"
                 );
                 let usage = from.is_some();
                 return Err(if usage { Failure::Usage(why) } else { Failure::file(&name, why) });
@@ -123,6 +133,7 @@ impl Opened {
             }
         };
         if let Some(layer) = options.layer.as_deref()
+            && !matches!(format, Format::Dxf | Format::Ttf)
             && *stem != *layer
         {
             let why = format!("--layer {layer}: the format {format} has no layers with names");
@@ -133,9 +144,12 @@ impl Opened {
             Features::Stream(RefCell::new(Some(source)))
         } else {
             source.read_to_end(&mut bytes).map_err(failed)?;
+            if format == Format::Svg && svg::has_text(&bytes) {
+                options.fonts = self::fonts(fonts)?;
+            }
             Features::Whole(bytes)
         };
-        Ok(Self::Polygons(Polygons { name, format, content }))
+        Ok(Self::Polygons(Polygons { name, format, options, content }))
     }
 
     /// The polygons, also those of axis documents if they may be; else that they are none.
@@ -143,7 +157,9 @@ impl Opened {
         match self {
             Self::Polygons(polygons) => Ok(polygons),
             Self::Axes(Input { name, bytes }) if documents == Documents::AsPolygons => {
-                Ok(Polygons { name, format: Format::Json, content: Features::Axes(bytes) })
+                let options = ReadOptions::default();
+                let content = Features::Axes(bytes);
+                Ok(Polygons { name, format: Format::Json, options, content })
             }
             Self::Axes(input) => {
                 let what = match Format::of_content(&input.bytes) {
@@ -160,8 +176,12 @@ impl Polygons {
     /// The features; those of a stream can be had once.
     pub fn layer(&self) -> Result<Layer<'_>, Failure> {
         let layer = match &self.content {
-            Features::Whole(bytes) => medial_io::read(self.format, bytes),
-            Features::File(path, options) => medial_io::open(self.format, path, options),
+            Features::File(path) => medial_io::open(self.format, path, &self.options),
+            // Parsers of fonts may panic, which the reader catches.
+            Features::Whole(bytes) => {
+                guarded(|| medial_io::read_with(self.format, bytes, &self.options))
+                    .map_err(|panic| Failure::file(&self.name, panic))?
+            }
             Features::Axes(bytes) => axis_document::of_bytes(bytes).map(axis_document::polygons),
             Features::Stream(source) => {
                 let source = source.take().unwrap_or_else(|| Box::new(io::empty()));
@@ -181,14 +201,24 @@ fn table(
     path: &Path,
     name: String,
     format: Format,
-    options: &ReadOptions,
+    options: ReadOptions,
 ) -> Result<Opened, Failure> {
     if path.as_os_str() == "-" {
         let why = format!("{format} is read from a file, not from standard input; name the file");
         return Err(Failure::Usage(why));
     }
-    let content = Features::File(path.to_owned(), options.clone());
-    Ok(Opened::Polygons(Polygons { name, format, content }))
+    let content = Features::File(path.to_owned());
+    Ok(Opened::Polygons(Polygons { name, format, options, content }))
+}
+
+fn fonts(files: &[PathBuf]) -> Result<svg::Fonts, Failure> {
+    if files.is_empty() {
+        return Ok(svg::Fonts::of_system());
+    }
+    let with = |fonts: svg::Fonts, file: &PathBuf| {
+        Ok(fonts.with(fs::read(file).map_err(|error| unreadable(&name(file), &error))?))
+    };
+    files.iter().try_fold(svg::Fonts::default(), with)
 }
 
 fn open(path: &Path) -> io::Result<Source> {

@@ -68,6 +68,24 @@ pub enum Error {
         /// What is wrong with it.
         why: String,
     },
+    /// Curves of a feature could not be flattened.
+    #[error("{why}")]
+    Curve {
+        /// What is wrong with them, and what to do.
+        why: String,
+    },
+    /// Lines of a drawing that are not closed.
+    #[error("{what} is open; close it in the drawing, or leave it out")]
+    OpenChain {
+        /// What they are, and where they begin and end.
+        what: String,
+    },
+    /// A text of a drawing for which there is no font.
+    #[error("{what} has no font; name one with --font, or turn it into paths")]
+    NoFont {
+        /// Which text it is.
+        what: String,
+    },
     /// The picture could not be made.
     #[error("the picture cannot be drawn: {why}")]
     Picture {
@@ -77,6 +95,17 @@ pub enum Error {
 }
 
 impl Error {
+    /// The word of a report for it: `malformed` if it is no other.
+    #[must_use]
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::OpenChain { .. } => "open_chain",
+            Self::NoFont { .. } => "no_font",
+            Self::Curve { .. } => "curve",
+            _ => "malformed",
+        }
+    }
+
     /// The same in a text that is behind so many lines.
     pub(crate) fn after(self, lines: usize) -> Self {
         match self {

@@ -48,6 +48,8 @@ pub struct Note {
 pub struct Layer<'a> {
     /// The coordinate reference system of the layer, if it has one.
     pub crs: Option<Crs>,
+    /// The unit of its coordinates, where its format names one: `mm`, `in`.
+    pub units: Option<&'static str>,
     /// The number of features, where it is known beforehand.
     pub len: Option<usize>,
     pub(crate) parts: Box<dyn Iterator<Item = Part<'a>> + Send + 'a>,
@@ -151,7 +153,7 @@ impl<'a> Layer<'a> {
     pub(crate) fn new(
         features: impl Iterator<Item = Result<Feature, FeatureError>> + Send + 'a,
     ) -> Self {
-        Self { crs: None, len: None, parts: Box::new(features.map(Part::of_read)) }
+        Self { crs: None, units: None, len: None, parts: Box::new(features.map(Part::of_read)) }
     }
 
     /// A layer of the features in these slices of `text`, in their order.
@@ -161,7 +163,7 @@ impl<'a> Layer<'a> {
         read: Reading,
     ) -> Self {
         let part = move |(index, part)| Part(State::Unread { text, part, index, read });
-        Self { crs: None, len: None, parts: Box::new(slices.enumerate().map(part)) }
+        Self { crs: None, units: None, len: None, parts: Box::new(slices.enumerate().map(part)) }
     }
 
     /// The features unread, as far as their format lets them be found before they are read.

@@ -1,5 +1,5 @@
 use crate::json::Head;
-use crate::{Error, maxis};
+use crate::{Error, dxf, font, maxis};
 use std::fmt;
 use std::path::Path;
 use std::str::FromStr;
@@ -40,6 +40,10 @@ pub enum Format {
     Fgb,
     /// GeoParquet.
     Parquet,
+    /// A drawing of a CAD program.
+    Dxf,
+    /// A font.
+    Ttf,
 }
 
 const NAMES: &[(Format, &str, &[&str])] = &[
@@ -59,6 +63,8 @@ const NAMES: &[(Format, &str, &[&str])] = &[
     (Format::Shp, "shp", &["shp"]),
     (Format::Fgb, "fgb", &["fgb"]),
     (Format::Parquet, "parquet", &["parquet", "geoparquet"]),
+    (Format::Dxf, "dxf", &["dxf"]),
+    (Format::Ttf, "ttf", &["ttf", "otf", "ttc", "otc"]),
 ];
 
 /// A word or a file extension that names no format.
@@ -98,6 +104,12 @@ impl Format {
         if self.is_table() || self == Self::GeoJsonSeq { Self::GeoJsonLines } else { self }
     }
 
+    /// Whether it has curves, which are read as edges within a tolerance.
+    #[must_use]
+    pub fn has_curves(self) -> bool {
+        matches!(self, Self::Svg | Self::Dxf | Self::Ttf)
+    }
+
     /// The format a file's extension stands for; letter case does not matter.
     ///
     /// # Errors
@@ -112,13 +124,19 @@ impl Format {
     }
 
     /// The format of an input, told by its beginning: JSON by its `type`, else the compressed
-    /// axis, WKB or WKT.
+    /// axis, a font, DXF, SVG, WKB or WKT.
     ///
     /// # Errors
     /// If the input is empty or begins like none of them.
     pub fn of_content(bytes: &[u8]) -> Result<Content, Error> {
         if let Some(format) = of_table(bytes) {
             return Ok(Content::Polygons(format));
+        }
+        if font::begins(bytes) {
+            return Ok(Content::Polygons(Self::Ttf));
+        }
+        if dxf::begins(bytes) {
+            return Ok(Content::Polygons(Self::Dxf));
         }
         if let [0 | 1, ..] = bytes {
             return Ok(Content::Polygons(Self::Wkb));
@@ -133,6 +151,7 @@ impl Format {
             None => Err(Error::Empty),
             Some(b'[') => Ok(Content::Polygons(Self::Rings)),
             Some(b'{') => of_json(text, start),
+            Some(b'<') => Ok(Content::Polygons(Self::Svg)),
             Some(b'0') => Ok(Content::Polygons(Self::Wkb)),
             Some(c) if c.is_ascii_alphabetic() => Ok(Content::Polygons(Self::Wkt)),
             Some(_) => Err(Error::Unknown),

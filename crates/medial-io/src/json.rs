@@ -166,6 +166,26 @@ pub(crate) fn compact(value: &RawValue) -> Cow<'_, str> {
     value.get().chars().filter(keep).collect()
 }
 
+/// A text as a JSON string.
+pub(crate) fn quoted(text: &str) -> Json {
+    raw(serde_json::to_string(text))
+}
+
+/// A number as JSON; `null` if it is not finite.
+pub(crate) fn real(value: f64) -> Json {
+    raw(serde_json::to_string(&value))
+}
+
+/// A whole number as JSON.
+pub(crate) fn whole(value: i64) -> Json {
+    raw(serde_json::to_string(&value))
+}
+
+fn raw(json: Result<String, serde_json::Error>) -> Json {
+    // Texts and numbers always have a JSON form.
+    json.and_then(RawValue::from_string).unwrap_or_else(|_| RawValue::NULL.to_owned())
+}
+
 /// Appends a text as a JSON string.
 pub(crate) fn push_quoted(out: &mut Vec<u8>, text: &str) {
     // Text always has a JSON form, and memory takes all that is written.

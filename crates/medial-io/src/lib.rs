@@ -25,6 +25,7 @@
 mod apart;
 mod attribute;
 mod crs;
+mod curves;
 mod error;
 mod feature;
 mod format;
@@ -41,7 +42,9 @@ mod samples;
 
 pub mod axis_document;
 pub mod csv;
+pub mod dxf;
 pub mod fgb;
+pub mod font;
 pub mod gcode;
 pub mod geojson;
 pub mod gpkg;
@@ -76,7 +79,22 @@ pub use text::text;
 /// If the format holds no polygons, or the bytes as a whole are not of that format. What is wrong
 /// with one feature only is an item of the layer.
 pub fn read(format: Format, bytes: &[u8]) -> Result<Layer<'_>, Error> {
+    read_with(format, bytes, &ReadOptions::default())
+}
+
+/// The same, with options for formats that take some.
+///
+/// # Errors
+/// As [`read`].
+pub fn read_with<'a>(
+    format: Format,
+    bytes: &'a [u8],
+    options: &ReadOptions,
+) -> Result<Layer<'a>, Error> {
     match format {
+        Format::Svg => svg::read(text(bytes)?, options),
+        Format::Dxf => dxf::read(bytes, options),
+        Format::Ttf => font::read(bytes, options),
         Format::GeoJson => geojson::read(text(bytes)?),
         Format::GeoJsonLines | Format::GeoJsonSeq => Ok(geojson::read_lines(text(bytes)?)),
         Format::Wkt => Ok(wkt::read(text(bytes)?)),

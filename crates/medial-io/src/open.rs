@@ -38,6 +38,7 @@ pub fn open<'a>(format: Format, path: &Path, options: &ReadOptions) -> Result<La
             }
             #[expect(clippy::map_identity, reason = "the items are given a shorter lifetime")]
             _ => Ok(Layer {
+                units: None,
                 crs: layer.crs,
                 len: layer.len,
                 parts: Box::new(layer.parts.map(|part| -> Part<'a> { part })),

@@ -1,3 +1,5 @@
+use crate::svg::Fonts;
+
 /// What a reader is told besides the format.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ReadOptions {
@@ -8,4 +10,6 @@ pub struct ReadOptions {
     pub layer: Option<String>,
     /// The text to read in glyphs of a font.
     pub text: Option<String>,
+    /// Fonts for the text of drawings.
+    pub fonts: Fonts,
 }

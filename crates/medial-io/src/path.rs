@@ -19,7 +19,7 @@ pub struct Drawing {
 /// Tolerance of drawn curves, as a share of the longer side of the box around the feature.
 ///
 /// Drawing only. A tenth of it makes about three times as many points.
-const RELATIVE_TOLERANCE: f64 = 1e-4;
+pub(crate) const RELATIVE_TOLERANCE: f64 = 1e-4;
 
 /// The tolerance for an axis: 1e-4 of the longer side of its box.
 ///

@@ -1,11 +1,11 @@
 //! Results that are a shape with named values, in every format that holds such things.
 //!
-//! GeoJSON has the values as properties, CSV as columns; WKT, WKB and rings have the shapes alone.
+//! GeoJSON has the values as properties, CSV as columns; WKT, WKB, DXF and rings have the shapes alone.
 
 use crate::geojson::{COMMON, SEPARATOR, beginning, number, position};
 use crate::json::push_quoted;
 use crate::number::push_shortest;
-use crate::{Feature, Format, csv, wkb, wkt};
+use crate::{Feature, Format, csv, dxf, wkb, wkt};
 use medial::axis::Engine;
 use medial::geom::Point;
 use std::fmt::Write as _;
@@ -82,8 +82,15 @@ impl From<&str> for Value {
 }
 
 /// Formats of records: lines have all but `rings`.
-pub const FORMATS: [Format; 6] =
-    [Format::GeoJson, Format::GeoJsonLines, Format::Csv, Format::Wkt, Format::Wkb, Format::Rings];
+pub const FORMATS: [Format; 7] = [
+    Format::GeoJson,
+    Format::GeoJsonLines,
+    Format::Csv,
+    Format::Wkt,
+    Format::Wkb,
+    Format::Rings,
+    Format::Dxf,
+];
 
 /// The names of all columns in CSV, with a line end.
 #[must_use]
@@ -124,6 +131,11 @@ pub fn write(
             out.extend_from_slice(table.text().as_bytes());
         }
         Format::Wkb => records.iter().for_each(|record| wkb::shape(out, &record.shape)),
+        Format::Dxf => {
+            let mut entities = dxf::Entities::default();
+            entities.records(records);
+            out.extend_from_slice(entities.into_text().as_bytes());
+        }
         Format::Rings => records.iter().for_each(|record| rings(out, &record.shape)),
         _ => {
             let mut text = String::new();

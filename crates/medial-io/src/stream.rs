@@ -48,7 +48,7 @@ pub fn read_stream<'a>(
     };
     // Lines have no place for it.
     let crs = (format != Format::Wkt).then(Crs::of_geojson);
-    Ok(Layer { crs, len: None, parts })
+    Ok(Layer { crs, units: None, len: None, parts })
 }
 
 /// Whole lines of a source.

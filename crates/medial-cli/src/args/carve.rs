@@ -12,7 +12,7 @@ Curves that were drawn with segments have a small corner at each, which takes a 
 leaves them out, and most of the way.
 
 Formats: geojson, geojsonl, csv, wkt, wkb (a record for each move, curves within the tolerance; their exact
-form is in the columns), svg (seen from above, curves as they are), gcode (a program for LinuxCNC, Grbl and
+form is in the columns), dxf (lines in space), svg (seen from above, curves as they are), gcode (a program for LinuxCNC, Grbl and
 the like; needs --feed and --safe-height).
 
 Examples:

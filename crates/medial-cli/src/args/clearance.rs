@@ -14,7 +14,7 @@ Two elements that one tiny edge joins are near without a neck; polygons may have
 --profile writes the width along the main line of each feature, the one that medial centerline gives by
 default: points so near each other that the width between them is linear within the tolerance.
 
-Formats: geojson, geojsonl, csv, wkt, wkb; with --profile also svg, a plot.
+Formats: geojson, geojsonl, csv, wkt, wkb, dxf; with --profile also svg, a plot.
 
 Examples:
   medial clearance fixtures/river.geojson --min 2 -o narrow.geojson

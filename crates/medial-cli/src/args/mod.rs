@@ -118,7 +118,7 @@ pub struct AxisArgs {
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
     /// Format of the output: geojson, geojsonl, json (axis document), wkt, wkb, csv, gpkg, shp, fgb,
-    /// parquet, svg, png; by default that of the extension, on standard output geojson
+    /// parquet, svg, png, dxf; by default that of the extension, on standard output geojson
     #[arg(long, value_name = "FORMAT")]
     pub to: Option<Format>,
     /// Who computes the axis: path_tracing, divide_and_conquer
@@ -136,10 +136,10 @@ pub struct AxisArgs {
     /// default 1e-4 of the longer side of the feature's box
     #[arg(long, value_name = "T", value_parser = positive, allow_negative_numbers = true)]
     pub tolerance: Option<f64>,
-    /// Write keypoints too (geojson, geojsonl, wkt, wkb; pictures and axis documents have them)
+    /// Write keypoints too (geojson, geojsonl, wkt, wkb, dxf; pictures and axis documents have them)
     #[arg(long)]
     pub keypoints: bool,
-    /// Write the radius as third coordinate (geojson, geojsonl, wkt, wkb, csv)
+    /// Write the radius as third coordinate (geojson, geojsonl, wkt, wkb, csv, dxf)
     #[arg(long, value_name = "VALUE")]
     pub z: Option<Height>,
     /// Write the keypoints to this file besides, as a CSV table of nodes; with --to csv the paths are its
@@ -172,7 +172,7 @@ Limbs are branches with a free end, once small ones are pruned (by default relat
 peninsulas inside, bays outside up to the convex hull. --match FILE lists the peninsulas of one file that
 fit into bays of the other, as JSON lines with the turn and the shift that bring them together.
 
-Formats: geojson, geojsonl, csv, wkt, wkb.
+Formats: geojson, geojsonl, csv, wkt, wkb, dxf.
 
 Examples:
   medial branches fixtures/river.geojson --max-error 2 -o branches.geojson
@@ -227,7 +227,7 @@ Limbs are removed that stand out of the disk where they grow out of the shape by
 radius (prominence=0.1, after Ho and Dyer), or what is below another threshold (--prune, --max-error). The rest of the
 boundary stays as it is; arcs close the gaps. `distance` is how far the boundary moved at most.
 
-Formats: geojson, geojsonl, csv, wkt, wkb, rings. An axis document that is complete may stand for polygons.
+Formats: geojson, geojsonl, csv, wkt, wkb, rings, dxf. An axis document that is complete may stand for polygons.
 
 Examples:
   medial smooth fixtures/river.geojson -o smooth.geojson
@@ -263,7 +263,7 @@ From an axis document, or from polygons by way of their axis. Methods:
   disks      the union of the disks at those points
 `error` is the distance between the new boundary and the old one, where that is known.
 
-Formats: geojson, geojsonl, csv, wkt, wkb, rings.
+Formats: geojson, geojsonl, csv, wkt, wkb, rings, dxf.
 
 Examples:
   medial axis fixtures/river.geojson --to json | medial reconstruct - --from json --to wkt
@@ -349,7 +349,7 @@ pub struct CenterlineArgs {
     /// File to write; by default, and for `-`, standard output
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
-    /// Format of the output: geojson, geojsonl, wkt, csv, svg; by default that of the extension, on
+    /// Format of the output: geojson, geojsonl, wkt, csv, svg, dxf; by default that of the extension, on
     /// standard output geojson
     #[arg(long, value_name = "FORMAT")]
     pub to: Option<Format>,
@@ -391,7 +391,7 @@ pub struct CenterlineArgs {
     /// of the input
     #[arg(long, value_name = "T", value_parser = positive, allow_negative_numbers = true)]
     pub simplify: Option<f64>,
-    /// Write the radius as third coordinate (geojson, geojsonl, wkt, csv)
+    /// Write the radius as third coordinate (geojson, geojsonl, wkt, csv, dxf)
     #[arg(long, value_name = "VALUE")]
     pub z: Option<Height>,
     #[command(flatten)]
@@ -479,6 +479,8 @@ pub struct LocateArgs {
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
     #[command(flatten)]
+    pub flattening: Flattening,
+    #[command(flatten)]
     pub common: Common,
 }
 
@@ -504,6 +506,8 @@ pub struct CheckArgs {
     /// Form of the result: text, or json with one line for each feature
     #[arg(long, value_name = "FORM", default_value = "text")]
     pub to: Form,
+    #[command(flatten)]
+    pub flattening: Flattening,
     #[command(flatten)]
     pub common: Common,
 }
@@ -540,6 +544,8 @@ pub struct CompareArgs {
     pub engine: Vec<Engine>,
     #[command(flatten)]
     pub region: Region,
+    #[command(flatten)]
+    pub flattening: Flattening,
     #[command(flatten)]
     pub common: Common,
 }
@@ -582,6 +588,8 @@ pub struct CompressArgs {
     /// Form of the sizes, a row for each feature and one for all: json (lines), csv, or text for people
     #[arg(long, value_name = "FORM", default_value = "json")]
     pub sizes: Rows,
+    #[command(flatten)]
+    pub flattening: Flattening,
     #[command(flatten)]
     pub common: Common,
 }
@@ -649,16 +657,31 @@ impl Region {
     }
 }
 
+/// How curves are read, for commands that draw none.
+#[derive(Debug, Args)]
+pub struct Flattening {
+    /// Largest distance between a curve of a drawing or a font and the edges read for it, in units of
+    /// the input; by default 1e-4 of the longer side of the feature's box
+    #[arg(long, value_name = "T", value_parser = positive, allow_negative_numbers = true)]
+    pub tolerance: Option<f64>,
+}
+
 /// Arguments of every command that reads polygons.
 #[derive(Debug, Args)]
 pub struct Common {
-    /// Format of the polygons: geojson, geojsonl, wkt, wkb, rings, gpkg, shp, fgb, parquet; by default
-    /// that of the extension, else told by the content
+    /// Format of the polygons: geojson, geojsonl, wkt, wkb, rings, gpkg, shp, fgb, parquet, svg, dxf,
+    /// ttf; by default that of the extension, else told by the content
     #[arg(long, value_name = "FORMAT")]
     pub from: Option<Format>,
-    /// Layer to read, of a GeoPackage with several
+    /// Layer to read, of a GeoPackage or a drawing with several
     #[arg(long, value_name = "NAME")]
     pub layer: Option<String>,
+    /// Read the glyphs of this text from a font; by default all its glyphs
+    #[arg(long, value_name = "STRING")]
+    pub text: Option<String>,
+    /// A font for the text of drawings (svg), to be given several times; by default those of the system
+    #[arg(long, value_name = "FILE")]
+    pub font: Vec<PathBuf>,
     /// Refuse what would be repaired
     #[arg(long)]
     pub strict: bool,

@@ -8,8 +8,8 @@ Positive distances give what lies farther inside the polygons than that, negativ
 by it, rounded at corners: the true parallel curve, of segments and arcs. All polygons of a feature are
 one shape. A distance at which nothing is left gives no result.
 
-Formats: geojson, geojsonl, csv, wkt, wkb, rings (arcs within the tolerance); json and svg (arcs as they
-are).
+Formats: geojson, geojsonl, csv, wkt, wkb, rings (arcs within the tolerance); json, svg and dxf (arcs
+as they are).
 
 Examples:
   medial offset fixtures/river.geojson --distance 0.3,0.6,1,-1,-2 -o offsets.svg

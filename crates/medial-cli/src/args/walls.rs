@@ -10,7 +10,7 @@ gap fill. Lines end at junctions, and where it gets narrower or wider. Loose end
 gets too narrow, are left out if they reach less than --ends out of the pen that stays. A spot that is thin
 all around is a point.
 
-Formats: geojson, geojsonl, csv, wkt, wkb (the third coordinate is the width), svg.
+Formats: geojson, geojsonl, csv, wkt, wkb, dxf (the third coordinate is the width), svg.
 
 Examples:
   medial walls fixtures/glyph.wkt --min 20 --max 120 -o walls.svg

@@ -1,5 +1,5 @@
 use super::features::Run;
-use super::sink::{Sink, draw, encode, title};
+use super::sink::{Sink, draw, encode, head, title};
 use crate::args::{AxisArgs, Height, Pruning, Region, Sides};
 use crate::failure::{Failure, Status};
 use crate::input::Documents;
@@ -42,6 +42,7 @@ fn run_on(args: &AxisArgs, documents: Documents) -> Result<Status, Failure> {
         }
     }
     let mut run = Run::new(&args.common)?;
+    run.tolerance = args.tolerance;
     let format = output_format(args)?;
     let drawing = Drawing {
         tolerance: args.tolerance,
@@ -57,8 +58,8 @@ fn run_on(args: &AxisArgs, documents: Documents) -> Result<Status, Failure> {
         ..Options::default()
     };
     let crs = layer.crs.clone();
-    let columns = csv::header(&args.measures, drawing);
-    let mut sink = Sink::create(args.output.as_deref(), format, columns, crs, args.common.quiet)?;
+    let head = head(format, csv::header(&args.measures, drawing), layer.units);
+    let mut sink = Sink::create(args.output.as_deref(), format, head, crs, args.common.quiet)?;
     let mut nodes = args.nodes.as_deref().map(|path| Output::create(Some(path))).transpose()?;
     if let Some(nodes) = &mut nodes {
         nodes.write(csv::node_header().as_bytes())?;
@@ -210,6 +211,9 @@ fn output_format(args: &AxisArgs) -> Result<Format, Failure> {
     if format == Format::Rings {
         return usage("rings hold polygons, no axes; see --to in --help".to_owned());
     }
+    if format == Format::Ttf {
+        return usage("ttf is read only; see --to in --help".to_owned());
+    }
     if format == Format::Maxis {
         return usage("maxis is written by `medial compress`; see its --help".to_owned());
     }
@@ -219,9 +223,9 @@ fn output_format(args: &AxisArgs) -> Result<Format, Failure> {
     if !args.draw.is_empty() && !picture {
         return usage(format!("--draw is for svg and png, not for {format}"));
     }
-    if args.z.is_some() && !lines && format != Format::Csv {
+    if args.z.is_some() && !lines && !matches!(format, Format::Csv | Format::Dxf) {
         return usage(format!(
-            "--z is for geojson, geojsonl, wkt, wkb, csv and tables, not for {format}"
+            "--z is for geojson, geojsonl, wkt, wkb, csv, dxf and tables, not for {format}"
         ));
     }
     if args.keypoints && format == Format::Csv {

@@ -64,6 +64,7 @@ pub fn run(args: &BranchesArgs) -> Result<Status, Failure> {
         return pairs(args, other);
     }
     let mut run = Run::new(&args.common)?;
+    run.tolerance = args.tolerance;
     let plan = Plan {
         target: &args.target,
         thing: if args.limbs { "limbs" } else { "branches" },
@@ -272,6 +273,7 @@ fn each<R: Send>(
     write: &mut dyn FnMut(&[u8]) -> Result<(), Failure>,
 ) -> Result<Status, Failure> {
     let mut run = Run::new(&args.common)?;
+    run.tolerance = args.tolerance;
     let input = run.open_with(input, Documents::AsPolygons)?;
     let layer = timed(&mut run.stages.read, || input.layer())?;
     let (at_once, threads) = run.threads(&layer);

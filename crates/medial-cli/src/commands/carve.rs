@@ -41,6 +41,7 @@ const FORMATS: &[Format] = &[
     Format::Csv,
     Format::Wkt,
     Format::Wkb,
+    Format::Dxf,
     Format::Svg,
     Format::GCode,
 ];
@@ -54,6 +55,7 @@ struct Part {
 /// `medial carve`.
 pub fn run(args: &CarveArgs) -> Result<Status, Failure> {
     let mut run = Run::new(&args.common)?;
+    run.tolerance = args.tolerance;
     let plan = Plan {
         target: &args.target,
         thing: "tool paths",
@@ -63,10 +65,6 @@ pub fn run(args: &CarveArgs) -> Result<Status, Failure> {
     };
     let format = plan.format()?;
     let machine = machine(args, format)?;
-    if args.tolerance.is_some() && format == Format::Svg {
-        let why = "--tolerance is for what draws curves as lines; in svg they are exact";
-        return Err(Failure::Usage(why.to_owned()));
-    }
     let asked = CarveOptions {
         angle: args.angle,
         depth: args.depth,
@@ -75,6 +73,10 @@ pub fn run(args: &CarveArgs) -> Result<Status, Failure> {
         lift: args.lift,
     };
     let input = run.open(&args.input)?;
+    if args.tolerance.is_some() && format == Format::Svg && !input.format.has_curves() {
+        let why = "--tolerance is for what draws curves as lines; in svg they are exact";
+        return Err(Failure::Usage(why.to_owned()));
+    }
     let name = title("Tool path", &args.input);
     plan.run_and_draw(
         run,

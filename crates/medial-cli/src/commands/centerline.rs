@@ -1,6 +1,6 @@
 use super::axis::{format_of, needs_file};
 use super::features::Run;
-use super::sink::{Sink, boundary, title};
+use super::sink::{Sink, boundary, head, title};
 use crate::args::{CenterlineArgs, Extend, Purpose};
 use crate::failure::{Failure, Status};
 use crate::report::Entry;
@@ -12,24 +12,20 @@ use medial::ops::{
     Centerline, CenterlineOptions, Extension, LineOptions, Route, centerlines, polylines,
 };
 use medial_io::svg::{MainLines, Options, write_lines};
-use medial_io::{Feature, Format, csv, domain_tolerance, geojson, wkt};
+use medial_io::{Feature, Format, csv, domain_tolerance, dxf, geojson, wkt};
 use std::time::Duration;
 
 /// `medial centerline`.
 pub fn run(args: &CenterlineArgs) -> Result<Status, Failure> {
     let asked = asked(args)?;
     let mut run = Run::new(&args.common)?;
+    run.tolerance = args.tolerance;
     let format = output_format(args)?;
     let input = run.open(&args.input)?;
     let layer = timed(&mut run.stages.read, || input.layer())?;
-    let columns = csv::centerline_header();
-    let mut sink = Sink::create(
-        args.output.as_deref(),
-        format,
-        columns,
-        layer.crs.clone(),
-        args.common.quiet,
-    )?;
+    let head = head(format, csv::centerline_header(), layer.units);
+    let (crs, quiet) = (layer.crs.clone(), args.common.quiet);
+    let mut sink = Sink::create(args.output.as_deref(), format, head, crs, quiet)?;
     let mut pictures = Vec::new();
     let mut write = Duration::ZERO;
     let (at_once, threads) = run.threads(&layer);
@@ -97,6 +93,11 @@ fn encode(
         Format::GeoJsonLines => {
             return geojson::centerline_lines(bytes, feature, engine, lines, drawn, z);
         }
+        Format::Dxf => {
+            let mut entities = dxf::Entities::default();
+            entities.lines(drawn, z);
+            entities.into_text()
+        }
         Format::Csv => csv::centerline_rows(feature, engine, lines, drawn, z),
         _ => wkt::write_lines(drawn, z),
     };
@@ -136,15 +137,17 @@ fn asked(args: &CenterlineArgs) -> Result<CenterlineOptions, Failure> {
 fn output_format(args: &CenterlineArgs) -> Result<Format, Failure> {
     let file = args.output.as_deref().filter(|path| path.as_os_str() != "-");
     let format = format_of(args.to, file)?;
-    let known = [Format::GeoJson, Format::GeoJsonLines, Format::Wkt, Format::Csv, Format::Svg];
+    let known =
+        [Format::GeoJson, Format::GeoJsonLines, Format::Wkt, Format::Csv, Format::Svg, Format::Dxf];
     if !known.contains(&format.encoding()) {
         let why = format!(
-            "centerlines are written as geojson, geojsonl, wkt, csv, svg, gpkg, shp, fgb or parquet, not as {format}"
+            "centerlines are written as geojson, geojsonl, wkt, csv, svg, dxf, gpkg, shp, fgb or parquet, \
+             not as {format}"
         );
         return Err(Failure::Usage(why));
     }
     if args.z.is_some() && format == Format::Svg {
-        return Err(Failure::Usage("--z is for geojson, geojsonl, wkt and csv".to_owned()));
+        return Err(Failure::Usage("--z is for geojson, geojsonl, wkt, csv and dxf".to_owned()));
     }
     needs_file(format, file)?;
     Ok(format)

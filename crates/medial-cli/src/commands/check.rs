@@ -15,6 +15,7 @@ pub fn run(args: &CheckArgs) -> Result<Status, Failure> {
         return Err(Failure::Usage(why.to_owned()));
     }
     let mut run = Run::new(&args.common)?;
+    run.tolerance = args.flattening.tolerance;
     let axes = timed(&mut run.stages.read, || Input::read(&args.axis))?;
     let mut documents = timed(&mut run.stages.read, || read_documents(&axes))?;
     let input = run.open(&args.domain)?;

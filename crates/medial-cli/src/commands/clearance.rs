@@ -44,13 +44,21 @@ const COLUMNS: &[&str] = &[
 const STATION_COLUMNS: &[&str] = &["station", "x", "y", "width"];
 
 /// Formats of profiles: those of lines, and the plot.
-const PROFILES: &[Format] =
-    &[Format::GeoJson, Format::GeoJsonLines, Format::Csv, Format::Wkt, Format::Wkb, Format::Svg];
+const PROFILES: &[Format] = &[
+    Format::GeoJson,
+    Format::GeoJsonLines,
+    Format::Csv,
+    Format::Wkt,
+    Format::Wkb,
+    Format::Dxf,
+    Format::Svg,
+];
 
 /// `medial clearance`.
 pub fn run(args: &ClearanceArgs) -> Result<Status, Failure> {
     args.region.check()?;
-    let run = Run::new(&args.common)?;
+    let mut run = Run::new(&args.common)?;
+    run.tolerance = args.tolerance;
     match (args.profile, args.together) {
         (true, _) => profiles(args, run),
         (false, true) => together(args, run),

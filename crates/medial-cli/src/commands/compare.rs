@@ -10,6 +10,7 @@ use std::num::NonZeroUsize;
 pub fn run(args: &CompareArgs) -> Result<Status, Failure> {
     args.region.check()?;
     let mut run = Run::new(&args.common)?;
+    run.tolerance = args.flattening.tolerance;
     let rows = rows(args);
     let input = run.open(&args.input)?;
     let layer = timed(&mut run.stages.read, || input.layer())?;

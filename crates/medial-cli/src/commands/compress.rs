@@ -17,6 +17,7 @@ use std::time::Duration;
 /// `medial compress`.
 pub fn run(args: &CompressArgs) -> Result<Status, Failure> {
     let mut run = Run::new(&args.common)?;
+    run.tolerance = args.flattening.tolerance;
     let file = args.output.as_deref().filter(|path| path.as_os_str() != "-");
     check_output(file)?;
     let input = run.open_with(&args.input, Documents::AsPolygons)?;

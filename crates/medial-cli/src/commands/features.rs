@@ -24,6 +24,8 @@ pub struct Run<'a> {
     pub start: Instant,
     /// Time spent so far.
     pub stages: Stages,
+    /// Largest distance between a curve of the input and its edges.
+    pub tolerance: Option<f64>,
     report: Option<Output>,
     timings: Option<Output>,
 }
@@ -53,6 +55,7 @@ impl<'a> Run<'a> {
             common,
             start: Instant::now(),
             stages: Stages::default(),
+            tolerance: None,
             report: create(&common.report)?,
             timings: create(&common.timings)?,
         })
@@ -70,8 +73,14 @@ impl<'a> Run<'a> {
 
     /// Opens an input of polygons or axes.
     pub fn opened(&mut self, path: &Path) -> Result<Opened, Failure> {
-        let options = ReadOptions { layer: self.common.layer.clone(), ..ReadOptions::default() };
-        timed(&mut self.stages.read, || Opened::new(path, self.common.from, &options))
+        let Common { from, layer, text, font, .. } = self.common;
+        let options = ReadOptions {
+            tolerance: self.tolerance,
+            layer: layer.clone(),
+            text: text.clone(),
+            ..ReadOptions::default()
+        };
+        timed(&mut self.stages.read, || Opened::new(path, *from, options, font))
     }
 
     /// Calls `work` for each valid feature, `at_once` at a time, then `done` with the results and
@@ -269,7 +278,7 @@ fn process<R>(
                 outcome.broken = Some(plain(&source));
                 return outcome;
             }
-            outcome.entries.push(Entry::refused("malformed", error.to_string()));
+            outcome.entries.push(Entry::refused(error.code(), error.to_string()));
             return outcome;
         }
     };

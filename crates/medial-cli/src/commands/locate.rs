@@ -13,6 +13,7 @@ use std::time::Duration;
 pub fn run(args: &LocateArgs) -> Result<Status, Failure> {
     let point = Point::new(args.x, args.y);
     let mut run = Run::new(&args.common)?;
+    run.tolerance = args.flattening.tolerance;
     let input = run.open(&args.input)?;
     let layer = timed(&mut run.stages.read, || input.layer())?;
     let mut output = Output::create(args.output.as_deref())?;

@@ -10,12 +10,12 @@ use medial::engine::{self, exterior, interior};
 use medial::ops::{Outline, offset_margin, offsets};
 use medial_io::record::{Record, Shape};
 use medial_io::svg::{Options, Parallels, write_offsets};
-use medial_io::{Format, domain_tolerance, offset_document};
+use medial_io::{Format, domain_tolerance, dxf, offset_document};
 
 const COLUMNS: &[&str] = &["distance", "area", "length", "n_polygons", "n_holes"];
 
 /// Formats that keep arcs.
-const EXACT: &[Format] = &[Format::Json, Format::Svg];
+const EXACT: &[Format] = &[Format::Json, Format::Svg, Format::Dxf];
 
 /// Formats of polygons, and those.
 const FORMATS: &[Format] = &[
@@ -27,11 +27,13 @@ const FORMATS: &[Format] = &[
     Format::Rings,
     Format::Json,
     Format::Svg,
+    Format::Dxf,
 ];
 
 /// `medial offset`.
 pub fn run(args: &OffsetArgs) -> Result<Status, Failure> {
     let mut run = Run::new(&args.common)?;
+    run.tolerance = args.tolerance;
     let plan = Plan {
         target: &args.target,
         thing: "offsets",
@@ -40,11 +42,11 @@ pub fn run(args: &OffsetArgs) -> Result<Status, Failure> {
         engine: args.engine,
     };
     let format = plan.format()?;
-    if args.tolerance.is_some() && EXACT.contains(&format) {
+    let input = run.open(&args.input)?;
+    if args.tolerance.is_some() && EXACT.contains(&format) && !input.format.has_curves() {
         let why = format!("--tolerance is for polylines; arcs are exact in {format}");
         return Err(Failure::Usage(why));
     }
-    let input = run.open(&args.input)?;
     let options = Options { title: title("Offsets", &args.input), ..Options::default() };
     plan.run_and_draw(
         run,
@@ -55,6 +57,11 @@ pub fn run(args: &OffsetArgs) -> Result<Status, Failure> {
                 return Ok(Found::Part(Parallels { boundary: boundary(domain), outlines }));
             }
             Ok(timed(&mut stages.write, || {
+                if format == Format::Dxf {
+                    let mut entities = dxf::Entities::default();
+                    outlines.iter().for_each(|(_, outline)| entities.outline(outline));
+                    return Found::Text(entities.into_text());
+                }
                 if format == Format::Json {
                     let line = |(distance, outline): &(f64, Outline)| {
                         offset_document::write(feature, args.engine, *distance, outline)

@@ -30,6 +30,7 @@ pub fn run(args: &ReconstructArgs) -> Result<Status, Failure> {
         return Err(Failure::Usage(why.to_owned()));
     }
     let mut run = Run::new(&args.common)?;
+    run.tolerance = args.tolerance;
     let plan = Plan {
         target: &args.target,
         thing: "polygons",
@@ -63,7 +64,7 @@ fn of_documents(args: &ReconstructArgs, plan: &Plan<'_>, input: &Input) -> Resul
         return Err(Failure::Usage(why.to_owned()));
     }
     let format = plan.format()?;
-    let mut sink = plan.sink(format, None, args.common.quiet)?;
+    let mut sink = plan.sink(format, None, None, args.common.quiet)?;
     let progress = Progress::new(args.common.progress, args.common.quiet, None);
     let (mut done, mut left_out) = (0, 0);
     for document in input.axes()? {

@@ -2,7 +2,7 @@
 
 use super::axis::{format_of, needs_file};
 use super::features::Run;
-use super::sink::Sink;
+use super::sink::{Sink, head};
 use crate::args::Target;
 use crate::failure::{Failure, Status};
 use crate::input::Polygons;
@@ -30,7 +30,7 @@ pub struct Plan<'a> {
 
 /// Formats of lines.
 pub const LINES: &[Format] =
-    &[Format::GeoJson, Format::GeoJsonLines, Format::Csv, Format::Wkt, Format::Wkb];
+    &[Format::GeoJson, Format::GeoJsonLines, Format::Csv, Format::Wkt, Format::Wkb, Format::Dxf];
 
 /// Formats of polygons.
 pub const POLYGONS: &[Format] = &record::FORMATS;
@@ -64,9 +64,15 @@ impl Plan<'_> {
     }
 
     /// A place for the records.
-    pub fn sink(&self, format: Format, crs: Option<Crs>, quiet: bool) -> Result<Sink, Failure> {
-        let columns = record::header(self.columns);
-        Sink::create(self.target.output.as_deref(), format, columns, crs, quiet)
+    pub fn sink(
+        &self,
+        format: Format,
+        crs: Option<Crs>,
+        units: Option<&str>,
+        quiet: bool,
+    ) -> Result<Sink, Failure> {
+        let head = head(format, record::header(self.columns), units);
+        Sink::create(self.target.output.as_deref(), format, head, crs, quiet)
     }
 
     /// Calls `work` for each valid feature of an input and writes the records that it gives.
@@ -102,7 +108,7 @@ impl Plan<'_> {
     ) -> Result<Status, Failure> {
         let format = self.format()?;
         let layer = timed(&mut run.stages.read, || input.layer())?;
-        let mut sink = self.sink(format, layer.crs.clone(), run.common.quiet)?;
+        let mut sink = self.sink(format, layer.crs.clone(), layer.units, run.common.quiet)?;
         let mut parts = Vec::new();
         let mut write = Duration::ZERO;
         let (at_once, threads) = run.threads(&layer);

@@ -6,8 +6,8 @@ use medial::domain::Domain;
 use medial::ops::Significance;
 use medial_io::svg::{Options, Scene};
 use medial_io::{
-    Crs, Drawing, Feature, Format, axis_document, csv, domain_tolerance, geojson, png, svg, wkb,
-    wkt,
+    Crs, Drawing, Feature, Format, axis_document, csv, domain_tolerance, dxf, geojson, png, svg,
+    wkb, wkt,
 };
 use std::path::Path;
 
@@ -15,12 +15,14 @@ use std::path::Path;
 pub struct Sink {
     output: Output,
     format: Format,
-    /// The row of column names of CSV.
-    columns: String,
+    /// The row of column names of CSV, or what comes before the entities of DXF.
+    head: String,
     crs: Option<Crs>,
     begun: bool,
     /// The rows of a table, until all are known.
     table: Option<Table>,
+    /// How many entities of DXF have a handle.
+    n_handles: u64,
 }
 
 /// Appends the axes of a feature, each with what was measured, in a format, or gives what to draw of them.
@@ -66,6 +68,11 @@ fn encode_one(
             return None;
         }
         Format::Wkt => wkt::write(&axis, drawing),
+        Format::Dxf => {
+            let mut entities = dxf::Entities::default();
+            entities.axis(&axis, drawing.keypoints, drawing.radius_as_z);
+            entities.into_text()
+        }
         Format::Csv => csv::rows(feature, &axis, measured, drawing),
         Format::Svg | Format::Png => {
             return Some(Scene { boundary: Vec::new(), axis });
@@ -93,7 +100,7 @@ impl Sink {
     pub fn create(
         path: Option<&Path>,
         format: Format,
-        columns: String,
+        head: String,
         crs: Option<Crs>,
         quiet: bool,
     ) -> Result<Self, Failure> {
@@ -102,7 +109,7 @@ impl Sink {
             Some(path) if format.is_table() => Some(Table::create(path, format, quiet)?),
             _ => None,
         };
-        Ok(Self { output, format, columns, crs, begun: false, table })
+        Ok(Self { output, format, head, crs, begun: false, table, n_handles: 0 })
     }
 
     /// Writes what [`encode`] made of axes that follow one another.
@@ -123,6 +130,9 @@ impl Sink {
             bytes = bytes.strip_prefix(geojson::SEPARATOR).unwrap_or(bytes);
         }
         self.begin()?;
+        if self.format == Format::Dxf {
+            return self.output.write(&dxf::number(bytes, &mut self.n_handles));
+        }
         self.output.write(bytes)
     }
 
@@ -132,7 +142,7 @@ impl Sink {
         }
         match self.format {
             Format::GeoJson => self.output.write(geojson::header(self.crs.as_ref()).as_bytes()),
-            Format::Csv => self.output.write(self.columns.as_bytes()),
+            Format::Csv | Format::Dxf => self.output.write(self.head.as_bytes()),
             _ => Ok(()),
         }
     }
@@ -146,9 +156,17 @@ impl Sink {
         if self.format == Format::GeoJson {
             self.output.write(geojson::FOOTER.as_bytes())?;
         }
+        if self.format == Format::Dxf {
+            self.output.write(dxf::FOOTER.as_bytes())?;
+        }
         self.output.write(picture)?;
         self.output.finish()
     }
+}
+
+/// What comes first in a format: the names of columns, or a head with the unit of the input.
+pub fn head(format: Format, columns: String, units: Option<&str>) -> String {
+    if format == Format::Dxf { dxf::header(units) } else { columns }
 }
 
 /// The picture of all axes; nothing for other formats.

@@ -19,6 +19,7 @@ const COLUMNS: &[&str] = &["measure", "threshold", "distance", "area"];
 pub fn run(args: &SmoothArgs) -> Result<Status, Failure> {
     let (measure, threshold) = args.pruning.threshold().unwrap_or(PROMINENCE);
     let mut run = Run::new(&args.common)?;
+    run.tolerance = args.tolerance;
     let plan = Plan {
         target: &args.target,
         thing: "polygons",

@@ -16,6 +16,7 @@ use std::time::Duration;
 /// `medial voronoi`.
 pub fn run(args: &VoronoiArgs) -> Result<Status, Failure> {
     let mut run = Run::new(&args.common)?;
+    run.tolerance = args.tolerance;
     let format = output_format(args)?;
     let input = run.open(&args.input)?;
     let layer = timed(&mut run.stages.read, || input.layer())?;

@@ -13,8 +13,15 @@ use medial_io::{Format, domain_tolerance};
 
 const COLUMNS: &[&str] = &["length", "width_min", "width_max", "width_mean", "closed"];
 
-const FORMATS: &[Format] =
-    &[Format::GeoJson, Format::GeoJsonLines, Format::Csv, Format::Wkt, Format::Wkb, Format::Svg];
+const FORMATS: &[Format] = &[
+    Format::GeoJson,
+    Format::GeoJsonLines,
+    Format::Csv,
+    Format::Wkt,
+    Format::Wkb,
+    Format::Dxf,
+    Format::Svg,
+];
 
 /// `medial walls`.
 pub fn run(args: &WallsArgs) -> Result<Status, Failure> {
@@ -23,6 +30,7 @@ pub fn run(args: &WallsArgs) -> Result<Status, Failure> {
         return Err(Failure::Usage(why));
     }
     let mut run = Run::new(&args.common)?;
+    run.tolerance = args.tolerance;
     let plan = Plan {
         target: &args.target,
         thing: "walls",

@@ -114,7 +114,7 @@ pub fn open(path: &Path) -> Result<Layer<'static>, Error> {
     let len = usize::try_from(metadata.num_rows()).ok();
     let parts = read_apart(move |rows| read(&reader, &roles, rows).map_err(|error| plain(&error)))
         .map_err(|source| Error::Interrupted { source })?;
-    Ok(Layer { crs, len, parts: Box::new(parts) })
+    Ok(Layer { crs, units: None, len, parts: Box::new(parts) })
 }
 
 /// What the library says, without its own kind of error.

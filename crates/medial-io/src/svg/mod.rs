@@ -1,4 +1,5 @@
-//! Scalable vector pictures: the domain, the axis coloured by radius, keypoints by kind.
+//! Scalable vector pictures: the domain, the axis coloured by radius, keypoints by kind; and the shapes of
+//! drawings.
 //!
 //! # Contract
 //! One picture holds all scenes in one frame. Parabolas are exact quadratic Béziers, cut where
@@ -15,6 +16,7 @@ mod lettering;
 mod offset;
 mod palette;
 mod profile;
+pub(crate) mod read;
 mod voronoi;
 mod walls;
 
@@ -22,6 +24,7 @@ pub use carving::{ToolPath, write_tool_paths};
 pub use centerline::{MainLines, write_lines};
 pub use offset::{Parallels, write_offsets};
 pub use profile::{Profile, write_profiles};
+pub use read::{Fonts, has_text, read};
 pub use voronoi::{Diagram, write_diagrams};
 pub use walls::{ThinWalls, write_walls};
 

@@ -1,0 +1,213 @@
+use super::*;
+use crate::{Polygons, svg};
+use medial::domain::Curves;
+use std::f64::consts::PI;
+
+fn features(body: &str) -> Vec<Result<Feature, FeatureError>> {
+    let text = format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" xmlns:xlink=\"http://www.w3.org/1999/xlink\" \
+         xmlns:inkscape=\"http://www.inkscape.org/namespaces/inkscape\" viewBox=\"0 0 100 50\">{body}</svg>"
+    );
+    let options = ReadOptions { tolerance: Some(1e-4), ..ReadOptions::default() };
+    read(&text, &options).unwrap().collect()
+}
+
+fn one(body: &str) -> Feature {
+    let mut features = features(body);
+    assert_eq!(features.len(), 1, "{features:?}");
+    features.remove(0).unwrap()
+}
+
+fn area(polygons: &Polygons) -> f64 {
+    let ring = |ring: &Vec<Point>| -> f64 {
+        let next = ring.iter().cycle().skip(1);
+        0.5 * ring.iter().zip(next).map(|(a, b)| a.cross(*b)).sum::<f64>()
+    };
+    polygons.iter().flatten().map(ring).sum()
+}
+
+fn property(feature: &Feature, name: &str) -> String {
+    let found = feature.properties.iter().find(|(key, _)| key == name);
+    found.map(|(_, value)| value.get().trim_matches('"').to_owned()).unwrap_or_default()
+}
+
+#[test]
+fn doubles_of_points_pass_through_with_y_up() {
+    let read = one("<polygon points='0.1,0.2 3.3,0.7 1e-7,5.55' id='a'/>");
+    let p = Point::new;
+    assert_eq!(read.polygons, [[[p(0.1, -0.2), p(3.3, -0.7), p(1e-7, -5.55)]]]);
+    assert_eq!(read.id.unwrap().get(), "\"a\"");
+    assert_eq!(read.fill, FillRule::NonZero);
+    assert!(read.curves.is_none());
+}
+
+#[test]
+fn all_shapes_have_their_area() {
+    let of = |body: &str| area(&one(body).polygons).abs();
+    let near = |a: f64, b: f64| assert!((a - b).abs() < 5e-3, "{a} is not {b}");
+    near(of("<rect x='1' y='2' width='30' height='10'/>"), 300.0);
+    near(of("<rect width='30' height='10' rx='2'/>"), 300.0 - (4.0 - PI) * 4.0);
+    near(of("<rect width='30' height='10' rx='99' ry='1'/>"), 300.0 - (4.0 - PI) * 15.0);
+    near(of("<circle cx='3' cy='4' r='2'/>"), 4.0 * PI);
+    near(of("<ellipse cx='3' cy='4' rx='2' ry='5'/>"), 10.0 * PI);
+    near(of("<path d='M0 0h10v5H0z'/>"), 50.0);
+    near(of("<path d='M0 0 A5 5 0 0 1 10 0'/>"), 12.5 * PI);
+    near(of("<path d='M0 0a5 5 0 1010 0z'/>"), 12.5 * PI);
+    near(of("<path d='M0 0A1 1 0 0 1 10 0'/>"), 12.5 * PI);
+    near(of("<path d='M0 0q5 10 10 0t10 0'/>"), 0.0);
+    near(of("<path d='M0 0c0 10 10 10 10 0'/>"), 60.0);
+    near(of("<polyline points='0 0 4 0 4 4'/>"), 8.0);
+}
+
+#[test]
+fn circles_are_arcs_and_their_pieces_are_known() {
+    let read = one("<g transform='rotate(30) scale(2)'><circle cx='9' r='2'/></g>");
+    let curves = read.curves.unwrap();
+    assert_eq!(curves.pieces.len(), 2);
+    assert!(curves.pieces.iter().all(|p| (p.start.curvature.abs() - 0.25).abs() < 1e-12));
+    assert_eq!(curves.edges[0][0].len(), read.polygons[0][0].len());
+    assert!(curves.edges[0][0].iter().all(|e| *e != Curves::STRAIGHT));
+}
+
+#[test]
+fn transforms_uses_and_views_nest() {
+    let body = "<defs><rect id='r' width='2' height='1'/><symbol id='s' viewBox='0 0 4 4'>\
+                <use xlink:href='#r'/></symbol></defs>\
+                <g transform='translate(10 5) scale(2)'><use href='#r' x='1' y='1'/></g>\
+                <use href='#s' width='8' height='8'/>\
+                <svg x='50' y='10' width='20' height='10' viewBox='0 0 2 2'><use href='#r'/></svg>";
+    let read: Vec<Feature> = features(body).into_iter().map(Result::unwrap).collect();
+    let starts: Vec<Point> = read.iter().map(|f| f.polygons[0][0][0]).collect();
+    let p = Point::new;
+    assert_eq!(starts, [p(12.0, -7.0), p(0.0, 0.0), p(55.0, -10.0)]);
+    let areas: Vec<f64> = read.iter().map(|f| area(&f.polygons).abs()).collect();
+    assert_eq!(areas, [8.0, 8.0, 50.0]);
+}
+
+#[test]
+fn styles_say_what_is_drawn() {
+    let body = "<style>.no{fill:none} rect.yes{fill:#ff0000 !important; fill-rule:evenodd}</style>\
+                <rect class='no' width='1' height='1'/><rect class='yes' fill='none' width='1' height='1'/>\
+                <g display='none'><rect width='1' height='1'/></g>\
+                <g visibility='hidden'><rect width='1' height='1'/>\
+                <rect id='seen' visibility='visible' width='1' height='1'/></g>\
+                <g style='fill:none'><rect width='1' height='1'/><rect style='fill:lime' width='1' height='1'/></g>\
+                <rect width='0' height='1'/><line x2='5'/>";
+    let read: Vec<Feature> = features(body).into_iter().map(Result::unwrap).collect();
+    let fills: Vec<String> = read.iter().map(|f| property(f, "fill")).collect();
+    assert_eq!(fills, ["#ff0000", "black", "lime"]);
+    assert_eq!(read[0].fill, FillRule::EvenOdd);
+    assert_eq!(property(&read[1], "id"), "seen");
+}
+
+#[test]
+fn strokes_are_outlines() {
+    let of = |body: &str| {
+        let read = one(body);
+        assert_eq!((property(&read, "part"), read.fill), ("stroke".to_owned(), FillRule::NonZero));
+        area(&read.polygons).abs()
+    };
+    let near = |a: f64, b: f64| assert!((a - b).abs() < 1e-2, "{a} is not {b}");
+    near(of("<line x2='10' stroke='red' stroke-width='2'/>"), 20.0);
+    near(of("<line x2='10' stroke='red' stroke-width='2' stroke-linecap='square'/>"), 24.0);
+    near(of("<line x2='10' stroke='red' stroke-width='2' stroke-linecap='round'/>"), 20.0 + PI);
+    near(of("<line x2='10' stroke='red' stroke-width='2' stroke-dasharray='1 3'/>"), 6.0);
+    near(of("<circle r='5' stroke='red' stroke-width='2' fill='none'/>"), 20.0 * PI);
+    let scaled = "<g transform='scale(3)'><line x2='10' stroke='red' stroke-width='2' \
+                  vector-effect='non-scaling-stroke'/></g>";
+    near(of(scaled), 60.0);
+    let both = features("<rect width='9' height='9' stroke='red'/>");
+    assert_eq!(both.len(), 2);
+    let ring = one("<circle r='5' stroke='red' stroke-width='2' fill='none'/>");
+    assert_eq!(ring.curves.unwrap().pieces.len(), 4);
+}
+
+#[test]
+fn layers_and_groups_are_properties() {
+    let body = "<g inkscape:groupmode='layer' inkscape:label='Cut' id='l1'><g id='part'>\
+                <rect width='1' height='1' id='r'/></g></g>";
+    let read = one(body);
+    assert_eq!(property(&read, "layer"), "Cut");
+    assert_eq!(property(&read, "group"), "part");
+    assert_eq!(property(&read, "element"), "rect");
+}
+
+#[test]
+fn broken_shapes_leave_the_others() {
+    let read = features(
+        "<path d='M0 0 L1 nan'/>\n<use href='#gone'/><polygon points='1 2 x'/>\
+         <g transform='turn(3)'/><rect width='1' height='1' clip-path='url(#c)'/>",
+    );
+    let told: Vec<String> = read
+        .iter()
+        .map(|f| f.as_ref().map_or_else(ToString::to_string, |f| f.notes[0].text.clone()))
+        .collect();
+    assert!(told[0].starts_with("line 1, column "), "{told:?}");
+    assert!(told[0].contains("the data of the path cannot be read"), "{told:?}");
+    assert!(told[1].contains("`use` names gone, which is not there"), "{told:?}");
+    assert!(told[2].contains("the points of the polygon cannot be read"), "{told:?}");
+    assert!(told[3].contains("the transform of `g` cannot be read"), "{told:?}");
+    assert_eq!(told[4], "a clip path or mask of the rect is ignored");
+}
+
+#[test]
+fn absurd_drawings_end() {
+    // Uses of uses, deep nesting, and one that uses itself.
+    let mut body = String::from("<g id='a0'><rect width='1' height='1'/></g>");
+    for k in 0..30 {
+        body += &format!("<g id='a{}'><use href='#a{k}'/><use href='#a{k}'/></g>", k + 1);
+    }
+    assert!(read(&format!("<svg>{body}</svg>"), &ReadOptions::default()).unwrap().count() > 1000);
+    let read = features("<g id='me'><use href='#me'/></g>");
+    assert!(read[0].as_ref().unwrap_err().to_string().contains("simplify the drawing"));
+    let deep = "<g>".repeat(400) + "<rect width='1' height='1'/>" + &"</g>".repeat(400);
+    assert!(features(&deep)[0].is_err());
+    for numbers in ["1e999", "NaN", "-1e308", "1e300"] {
+        let body = format!(
+            "<circle r='{numbers}' cx='{numbers}' stroke='red' stroke-width='{numbers}'/>\
+             <path d='M0 0C{numbers} 1 2 {numbers} 4 5' stroke='red' stroke-width='1e-300'/>\
+             <rect transform='scale({numbers})' width='1' height='{numbers}' rx='{numbers}'/>\
+             <path d='M0 0A{numbers} 1 {numbers} 0 1 4 {numbers}' stroke='red' stroke-dasharray='1e-9'/>"
+        );
+        features(&body);
+    }
+}
+
+#[test]
+fn what_is_no_drawing_is_refused() {
+    let error = |text: &str| read(text, &ReadOptions::default()).err().unwrap().to_string();
+    assert_eq!(error(" "), "the input is empty");
+    assert!(
+        error("<svg>\n<g></svg>").starts_with("line 2, column "),
+        "{}",
+        error("<svg>\n<g></svg>")
+    );
+    assert!(error("<html/>").contains("the outermost element is `html`, not `svg`"));
+}
+
+#[test]
+fn text_without_fonts_is_told() {
+    let read = features("<text y='10'>Hello</text><text> </text>");
+    assert_eq!(read.len(), 1);
+    let error = read[0].as_ref().unwrap_err();
+    assert_eq!(error.error.code(), "no_font");
+    let told = "the text `Hello` has no font; name one with --font, or turn it into paths";
+    assert_eq!(error.to_string(), told);
+}
+
+#[test]
+fn a_picture_of_ours_reads_back() {
+    let scene = svg::Scene {
+        boundary: crate::samples::rectangle_rings(),
+        axis: crate::samples::rectangle(),
+    };
+    let picture = svg::write(&[scene], &svg::Options::default());
+    let read: Vec<Feature> =
+        read(&picture, &ReadOptions::default()).unwrap().filter_map(Result::ok).collect();
+    // The rectangle is 1000 by 500 pixels, y up.
+    let shape = read
+        .iter()
+        .find(|f| property(f, "group").is_empty() && (area(&f.polygons).abs() - 5e5).abs() < 1.0);
+    let ring = &shape.expect("the domain is drawn").polygons[0][0];
+    assert!(area(&vec![vec![ring.clone()]]) > 0.0, "counterclockwise as written: {ring:?}");
+}
