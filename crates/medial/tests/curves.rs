@@ -242,3 +242,19 @@ fn a_threshold_counts_as_well() {
         assert_eq!(little.axis, hierarchy.without_artefacts(&polygons, &curves, None).axis);
     }
 }
+
+#[test]
+fn a_corner_too_flat_to_matter_has_no_branch() {
+    // A stadium whose straight sides are bent by 3 degrees in the middle.
+    let tolerance = 1e-2;
+    let mut drawing = Drawing::new(tolerance);
+    let bend = 0.052;
+    drawing.line(0.0, -1.0);
+    drawing.line(2.0, -1.0 - 2.0 * (0.5 * bend as f64).tan());
+    drawing.arc((4.0, 0.0), [1.0, 1.0], [-FRAC_PI_2, FRAC_PI_2]);
+    drawing.line(4.0, 1.0);
+    drawing.arc((0.0, 0.0), [1.0, 1.0], [FRAC_PI_2, 3.0 * FRAC_PI_2]);
+    let axis = drawing.smooth();
+    assert_eq!((ends(&axis), tips(&axis).len()), (0, 2));
+    assert!(axis.keypoints().iter().all(|k| k.kind != KeypointKind::Junction));
+}

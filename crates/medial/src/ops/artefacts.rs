@@ -14,11 +14,14 @@
 //!    the radius is that of the sharpest bend there: what has a smaller radius goes, less the tolerance, by
 //!    which walls have moved. The same holds for arcs of circles, which touch all along.
 //! 3. What is left at a fillet are stubs, since flattening has moved the wall: paths go of which all is
-//!    within the tolerance, if nothing behind them is a corner and all that was behind has gone.
+//!    within the tolerance, if all that was behind has gone. Of the branch of a corner all goes up to the
+//!    next junction, or nothing: a corner so flat that it moves no wall by more than the tolerance.
 //!
 //! # Departures
 //! None of [the rules](crate::domain::Curves); cuts are made for the second one only, so that the third
 //! one takes nothing of what is true.
+
+use std::collections::BTreeMap;
 
 use super::hierarchy::Hierarchy;
 use super::measure::Measure;
@@ -86,6 +89,13 @@ impl Hierarchy<'_> {
         let mut stays = vec![false; n];
         let mut bends = vec![f64::NEG_INFINITY; n];
         let mut lost = Vec::new();
+        // What goes from a corner up to a keypoint, if more goes beyond it.
+        let mut waiting: BTreeMap<u32, Vec<Cut>> = BTreeMap::new();
+        let mut degree = vec![0_u32; n];
+        for path in self.axis.paths() {
+            degree[path.from as usize] += 1;
+            degree[path.to as usize] += 1;
+        }
         self.each_part(|part, limb| {
             let (from, to) = (part.from as usize, part.to as usize);
             if stays[from] {
@@ -111,27 +121,47 @@ impl Hierarchy<'_> {
                 limb.reaches(1.0 / bend - tolerance, part.end).unwrap_or(part.end)
             };
             // What is left of a fillet.
-            let is_stub = gone < part.end
-                && corners[1] == 0
-                && limb.value(Measure::Excess, part.end) <= tolerance;
+            let is_stub = gone < part.end && limb.value(Measure::Excess, part.end) <= tolerance;
             let gone = if is_stub { part.end } else { gone };
             let is_gone = gone == part.end;
+            let mut before = waiting.remove(&part.from).unwrap_or_default();
             if gone > 0.0 {
-                let excess = limb.value(Measure::Excess, gone);
-                if is_gone && part.root.is_none() {
-                    lost.push((part.to, excess));
-                } else {
-                    rest.error = rest.error.max(excess);
-                }
                 let along = if part.forwards { gone } else { 1.0 - gone };
                 let along = part.root.filter(|_| is_gone).unwrap_or(along);
-                rest.cut(part.path, part.forwards, along);
+                let excess = limb.value(Measure::Excess, gone);
+                let goes_to = (is_gone && part.root.is_none()).then_some(part.to);
+                let cut =
+                    Cut { path: part.path, forwards: part.forwards, along, excess, to: goes_to };
+                let is_on_its_way = goes_to.is_some() && degree[to] == 2;
+                before.push(cut);
+                if corners[1] > 0 && is_on_its_way {
+                    waiting.insert(part.to, before);
+                } else if corners[1] == 0 || is_gone {
+                    for cut in before {
+                        rest.cut(cut.path, cut.forwards, cut.along);
+                        match cut.to {
+                            Some(to) => lost.push((to, cut.excess)),
+                            None => rest.error = rest.error.max(cut.excess),
+                        }
+                    }
+                }
             }
             stays[to] |= !is_gone;
             bends[to] = bends[to].max(bend);
         });
         (rest, lost)
     }
+}
+
+/// What goes of a path.
+struct Cut {
+    path: u32,
+    forwards: bool,
+    /// The parameter up to which it goes.
+    along: f64,
+    excess: f64,
+    /// The keypoint up to which it goes.
+    to: Option<u32>,
 }
 
 impl Joints {

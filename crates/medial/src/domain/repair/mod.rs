@@ -120,7 +120,10 @@ pub(super) fn repaired(
     let regrouped = Options { regroup: true, ..Options::default() };
     let mut domain = Domain::validated(&points, &regrouped)?;
     let names = Names { given: &given, parts: parts_of(&strands), strands: &strands };
-    note_roles(&domain, &rings, &names, &mut entries);
+    // By the other rule their order means nothing.
+    if options.fill == FillRule::EvenOdd {
+        note_roles(&domain, &rings, &names, &mut entries);
+    }
     for (polygon, of_polygon) in (0..).zip(&rings) {
         let had_any = polygons[polygon as usize].iter().any(|ring| !ring.is_empty());
         if of_polygon.is_empty() && had_any && !options.dissolve {
