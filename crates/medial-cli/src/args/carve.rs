@@ -26,7 +26,7 @@ Exit status: 0 all done; 1 no usable result; 2 wrong usage; 3 some features were
 #[derive(Debug, Args)]
 #[command(after_help = CARVE_HELP)]
 pub struct CarveArgs {
-    /// Polygons: GeoJSON, WKT, WKB, rings, GeoPackage, Shapefile, FlatGeobuf, GeoParquet; `-` for standard input
+    /// Polygons in any format that --from knows; `-` for standard input
     pub input: PathBuf,
     #[command(flatten)]
     pub target: Target,

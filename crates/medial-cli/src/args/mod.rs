@@ -112,7 +112,7 @@ Exit status: 0 all done; 1 no usable result; 2 wrong usage; 3 some features were
 #[derive(Debug, Args)]
 #[command(after_help = AXIS_HELP)]
 pub struct AxisArgs {
-    /// Polygons: GeoJSON, WKT, WKB, rings, GeoPackage, Shapefile, FlatGeobuf, GeoParquet; `-` for standard input
+    /// Polygons in any format that --from knows; `-` for standard input
     pub input: PathBuf,
     /// File to write; by default, and for `-`, standard output
     #[arg(short, long, value_name = "FILE")]
@@ -185,7 +185,7 @@ Exit status: 0 all done; 1 no usable result; 2 wrong usage; 3 some features were
 /// Arguments of `medial branches`.
 #[derive(Debug, Args)]
 pub struct BranchesArgs {
-    /// Polygons: GeoJSON, WKT, WKB, rings, GeoPackage, Shapefile, FlatGeobuf, GeoParquet; `-` for standard input
+    /// Polygons in any format that --from knows; `-` for standard input
     pub input: PathBuf,
     #[command(flatten)]
     pub target: Target,
@@ -238,7 +238,7 @@ Exit status: 0 all done; 1 no usable result; 2 wrong usage; 3 some features were
 /// Arguments of `medial smooth`.
 #[derive(Debug, Args)]
 pub struct SmoothArgs {
-    /// Polygons: GeoJSON, WKT, WKB, rings, GeoPackage, Shapefile, FlatGeobuf, GeoParquet, or axis documents; `-` for standard input
+    /// Polygons or axis documents, in any format that --from knows; `-` for standard input
     pub input: PathBuf,
     #[command(flatten)]
     pub target: Target,
@@ -344,7 +344,7 @@ Exit status: 0 all done; 1 no usable result; 2 wrong usage; 3 some features were
 #[derive(Debug, Args)]
 #[command(after_help = CENTERLINE_HELP)]
 pub struct CenterlineArgs {
-    /// Polygons: GeoJSON, WKT, WKB, rings, GeoPackage, Shapefile, FlatGeobuf, GeoParquet; `-` for standard input
+    /// Polygons in any format that --from knows; `-` for standard input
     pub input: PathBuf,
     /// File to write; by default, and for `-`, standard output
     #[arg(short, long, value_name = "FILE")]
@@ -431,7 +431,7 @@ Exit status: 0 all done; 1 no usable result; 2 wrong usage; 3 some features were
 #[derive(Debug, Args)]
 #[command(after_help = VORONOI_HELP)]
 pub struct VoronoiArgs {
-    /// Polygons: GeoJSON, WKT, WKB, rings, GeoPackage, Shapefile, FlatGeobuf, GeoParquet; `-` for standard input
+    /// Polygons in any format that --from knows; `-` for standard input
     pub input: PathBuf,
     /// File to write; by default, and for `-`, standard output
     #[arg(short, long, value_name = "FILE")]
@@ -473,7 +473,7 @@ pub struct LocateArgs {
     /// Ordinate of the point, in units of the input
     #[arg(value_parser = coordinate, allow_negative_numbers = true)]
     pub y: f64,
-    /// Polygons: GeoJSON, WKT, WKB, rings, GeoPackage, Shapefile, FlatGeobuf, GeoParquet; `-` for standard input
+    /// Polygons in any format that --from knows; `-` for standard input
     pub input: PathBuf,
     /// File to write; by default, and for `-`, standard output
     #[arg(short, long, value_name = "FILE")]
@@ -496,7 +496,7 @@ Exit status: 0 no defect; 1 no usable result; 2 wrong usage; 3 some features wer
 #[derive(Debug, Args)]
 #[command(after_help = CHECK_HELP)]
 pub struct CheckArgs {
-    /// Polygons: GeoJSON, WKT, WKB, rings, GeoPackage, Shapefile, FlatGeobuf, GeoParquet; `-` for standard input
+    /// Polygons in any format that --from knows; `-` for standard input
     pub domain: PathBuf,
     /// Axis document of these polygons; `-` for standard input
     pub axis: PathBuf,
@@ -529,7 +529,7 @@ Exit status: 0 all done; 1 no usable result; 2 wrong usage; 3 some features were
 #[derive(Debug, Args)]
 #[command(after_help = COMPARE_HELP)]
 pub struct CompareArgs {
-    /// Polygons: GeoJSON, WKT, WKB, rings, GeoPackage, Shapefile, FlatGeobuf, GeoParquet; `-` for standard input
+    /// Polygons in any format that --from knows; `-` for standard input
     pub input: PathBuf,
     /// File to write; by default, and for `-`, standard output
     #[arg(short, long, value_name = "FILE")]
@@ -570,7 +570,7 @@ Exit status: 0 all done; 1 no usable result; 2 wrong usage; 3 some features were
 #[derive(Debug, Args)]
 #[command(after_help = COMPRESS_HELP)]
 pub struct CompressArgs {
-    /// Polygons: GeoJSON, WKT, WKB, rings, GeoPackage, Shapefile, FlatGeobuf, GeoParquet; `-` for standard input
+    /// Polygons in any format that --from knows; `-` for standard input
     pub input: PathBuf,
     /// File to write (maxis); by default, and for `-`, standard output
     #[arg(short, long, value_name = "FILE")]
