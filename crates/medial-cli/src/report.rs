@@ -39,12 +39,17 @@ pub struct Entry {
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub indices: Vec<u32>,
     /// Where it shows in the plane.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub points: Vec<[f64; 2]>,
+    #[serde(skip_serializing_if = "are_none")]
+    pub points: Box<[[f64; 2]]>,
     /// How far the edges of the feature were moved at most.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub moved: Option<f64>,
     pub message: String,
+}
+
+#[expect(clippy::borrowed_box, reason = "the form of serde")]
+fn are_none(points: &Box<[[f64; 2]]>) -> bool {
+    points.is_empty()
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -73,7 +78,7 @@ impl Entry {
             polygon: None,
             ring: None,
             indices: Vec::new(),
-            points: Vec::new(),
+            points: Box::default(),
             moved: None,
             message: message.into(),
         }

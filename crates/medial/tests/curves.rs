@@ -207,8 +207,8 @@ fn corners_keep_their_branches() {
 fn a_bump_between_corners_ends_in_its_centre() {
     // A keyhole: most of a disk on a slot, with corners where they meet.
     let tolerance = 1e-4;
-    let (half, r) = (0.4, 1.0);
-    let t = (half / r as f64).asin();
+    let (half, r): (f64, f64) = (0.4, 1.0);
+    let t = (half / r).asin();
     let mut drawing = Drawing::new(tolerance);
     drawing.line(-half, -4.0);
     drawing.line(half, -4.0);
@@ -248,9 +248,9 @@ fn a_corner_too_flat_to_matter_has_no_branch() {
     // A stadium whose straight sides are bent by 3 degrees in the middle.
     let tolerance = 1e-2;
     let mut drawing = Drawing::new(tolerance);
-    let bend = 0.052;
+    let bend: f64 = 0.052;
     drawing.line(0.0, -1.0);
-    drawing.line(2.0, -1.0 - 2.0 * (0.5 * bend as f64).tan());
+    drawing.line(2.0, -1.0 - 2.0 * (0.5 * bend).tan());
     drawing.arc((4.0, 0.0), [1.0, 1.0], [-FRAC_PI_2, FRAC_PI_2]);
     drawing.line(4.0, 1.0);
     drawing.arc((0.0, 0.0), [1.0, 1.0], [FRAC_PI_2, 3.0 * FRAC_PI_2]);

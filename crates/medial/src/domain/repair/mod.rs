@@ -319,9 +319,12 @@ fn overlap(pieces: &[Piece], bounds: &[Use]) -> Result<Option<(Point, [Use; 2])>
     }
 }
 
+/// What was found of a ring, by polygon, ring and kind: positions in it, and places in the plane.
+type Found = BTreeMap<(u32, u32, Repair), (Vec<u32>, Vec<Point>)>;
+
 /// Reports where edges met, by the rings that they belong to.
 fn note_meetings(given: &[Given], meetings: &[noding::Meeting], entries: &mut Vec<Entry>) {
-    let mut found: BTreeMap<(u32, u32, Repair), (Vec<u32>, Vec<Point>)> = BTreeMap::new();
+    let mut found = Found::new();
     for meeting in meetings.iter().filter(|meeting| meeting.crosses) {
         for edge in meeting.edges {
             let Given { polygon, ring, index, .. } = given[edge as usize];
@@ -335,7 +338,7 @@ fn note_meetings(given: &[Given], meetings: &[noding::Meeting], entries: &mut Ve
 
 /// Reports where edges of one polygon lie on each other.
 fn note_overlaps(given: &[Given], strands: &[Strand], uses: &[Use], entries: &mut Vec<Entry>) {
-    let mut found: BTreeMap<(u32, u32, Repair), (Vec<u32>, Vec<Point>)> = BTreeMap::new();
+    let mut found = Found::new();
     let overlaps = uses.chunk_by(|a, b| (a.polygon, a.piece) == (b.polygon, b.piece));
     for u in overlaps.filter(|same| same.len() > 1).flatten() {
         let strand = &strands[u.strand as usize];
@@ -347,10 +350,7 @@ fn note_overlaps(given: &[Given], strands: &[Strand], uses: &[Use], entries: &mu
     add_found(found, entries);
 }
 
-fn add_found(
-    found: BTreeMap<(u32, u32, Repair), (Vec<u32>, Vec<Point>)>,
-    entries: &mut Vec<Entry>,
-) {
+fn add_found(found: Found, entries: &mut Vec<Entry>) {
     for ((polygon, ring, repair), (mut indices, mut points)) in found {
         indices.sort_unstable();
         indices.dedup();
