@@ -9,6 +9,7 @@ mod failure;
 mod guard;
 mod input;
 mod interrupt;
+mod metric;
 mod output;
 mod parallel;
 mod progress;

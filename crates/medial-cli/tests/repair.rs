@@ -111,6 +111,39 @@ fn features_beyond_a_limit_are_left_out_with_a_reason() {
     assert_eq!(with(["--max-seconds", "0.2"], &scribble), (Some(3), vec!["time_limit".to_owned()]));
 }
 
+/// The middle of a rectangle of a degree by a tenth, 60 degrees north: half as wide as on the equator.
+#[test]
+fn degrees_are_metres_on_request() {
+    let degree = 6_378_137.0 * std::f64::consts::PI / 180.0;
+    let polygon = "{\"type\":\"Polygon\",\"coordinates\":[[[7,59.95],[8,59.95],[8,60.05],[7,60.05],[7,59.95]]]}";
+    let run = medial_with(&["clearance", "-", "--metric", "--largest"], polygon);
+    assert_eq!((run.status, run.errors.as_str()), (Some(0), ""));
+    let disk = &run.json()["features"][0];
+    let width = disk["properties"]["width"].as_f64().unwrap();
+    assert!((width / (0.1 * degree) - 1.0).abs() < 1e-9, "{width}");
+    let axis = medial_with(&["axis", "-", "--metric", "--keypoints"], polygon).json();
+    let ends: Vec<[f64; 2]> = axis["features"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .filter(|f| f["properties"]["kind"] == "end")
+        .map(|f| [0, 1].map(|k| f["geometry"]["coordinates"][k].as_f64().unwrap()))
+        .collect();
+    assert_eq!(ends.len(), 4);
+    for [x, y] in ends {
+        assert!((x - 7.5).abs() - 0.5 < 1e-12 && ((y - 60.0).abs() - 0.05).abs() < 1e-12);
+    }
+    // A picture is in metres.
+    let text = medial_with(&["axis", "-", "--metric", "--to", "wkt"], polygon);
+    let longest =
+        text.text().split(['(', ',', ' ']).filter_map(|w| w.trim_end_matches(')').parse().ok());
+    assert!(longest.fold(0.0, f64::max) > 1e6);
+    let refused = medial_with(&["locate", "-", "7.5", "60", "--metric"], polygon);
+    assert_eq!(refused.status, Some(2));
+    let pole = polygon.replace("59.95", "89.99").replace("60.05", "90.5");
+    assert!(medial_with(&["axis", "-", "--metric"], &pole).errors.contains("between the poles"));
+}
+
 #[cfg(unix)]
 #[test]
 fn a_command_told_to_end_leaves_no_file() {

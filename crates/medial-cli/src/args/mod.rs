@@ -682,6 +682,10 @@ pub struct Common {
     /// A font for the text of drawings (svg), to be given several times; by default those of the system
     #[arg(long, value_name = "FILE")]
     pub font: Vec<PathBuf>,
+    /// Take coordinates for degrees of longitude and latitude and measure in metres, by the cosine of
+    /// the latitude in the middle of each feature; GeoJSON and tables have degrees again
+    #[arg(long)]
+    pub metric: bool,
     /// Refuse what would be repaired
     #[arg(long)]
     pub strict: bool,

@@ -3,6 +3,7 @@ use super::features::Run;
 use super::sink::{Sink, boundary, head, title};
 use crate::args::{CenterlineArgs, Extend, Purpose};
 use crate::failure::{Failure, Status};
+use crate::metric::Metric;
 use crate::report::Entry;
 use crate::timings::timed;
 use medial::axis::Engine;
@@ -108,6 +109,9 @@ fn encode(
 fn asked(args: &CenterlineArgs) -> Result<CenterlineOptions, Failure> {
     let usage = |why: &str| Err(Failure::Usage(why.to_owned()));
     let points = args.between.map_or_else(|| args.anchor.clone(), Vec::from);
+    if !points.is_empty() {
+        Metric::refuse(&args.common, "points")?;
+    }
     if points.len() == 1 {
         return usage("a line runs between two points at least: give --anchor once more");
     }

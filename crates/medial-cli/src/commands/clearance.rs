@@ -5,6 +5,7 @@ use super::sink::title;
 use crate::args::ClearanceArgs;
 use crate::failure::{Failure, Status};
 use crate::input::Documents;
+use crate::metric::Metric;
 use crate::report::Entry;
 use crate::timings::{Stages, timed};
 use medial::axis::MedialAxis;
@@ -114,6 +115,7 @@ fn all_places(
 
 /// Writes necks, or the largest disks, of all features as one shape.
 fn together(args: &ClearanceArgs, mut run: Run<'_>) -> Result<Status, Failure> {
+    Metric::refuse(run.common, "--together")?;
     let plan = plan_of_places(args)?;
     let format = plan.format()?;
     let input = run.open_with(&args.input, Documents::AsPolygons)?;

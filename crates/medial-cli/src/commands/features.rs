@@ -4,13 +4,14 @@ use crate::args::{Common, OnError};
 use crate::failure::{Failure, Status, plain};
 use crate::guard::guarded;
 use crate::input::{Documents, Opened, Polygons};
+use crate::metric::Metric;
 use crate::output::Output;
 use crate::parallel::ordered;
 use crate::progress::Progress;
 use crate::report::{self, Entry, FeatureReport, Report};
 use crate::timings::{self, Stages, timed};
 use medial::domain::Domain;
-use medial_io::{Crs, Error, Feature, FeatureError, Json, Layer, Part, ReadOptions};
+use medial_io::{Error, Feature, FeatureError, Json, Layer, Part, ReadOptions, geojson};
 use std::num::NonZeroUsize;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
@@ -104,7 +105,7 @@ impl<'a> Run<'a> {
         // Bytes of earlier batches, for their memory: it grows once and stays warm.
         let spare = Mutex::new(Vec::new());
         let spare = || spare.lock().unwrap_or_else(PoisonError::into_inner);
-        let parts = timed(&mut find, || told_of_degrees(layer, input, &progress));
+        let parts = timed(&mut find, || told_of_degrees(layer, input, common.metric, &progress));
         let broke = ordered(
             Batches { parts, find: &mut find },
             at_once,
@@ -223,9 +224,10 @@ impl<'p, I: Iterator<Item = Part<'p>>> Iterator for Batches<'_, I> {
 fn told_of_degrees<'a>(
     layer: Layer<'a>,
     input: &Polygons,
+    is_metric: bool,
     progress: &Progress,
 ) -> impl Iterator<Item = Part<'a>> + Send + use<'a> {
-    let crs = layer.crs.clone().filter(Crs::is_geographic);
+    let crs = layer.crs.clone().filter(|crs| crs.is_geographic() && !is_metric);
     let mut parts = layer.parts();
     let mut first = None;
     if let Some(crs) = crs {
@@ -238,8 +240,7 @@ fn told_of_degrees<'a>(
         if are_degrees {
             progress.warning(&format!(
                 "{}: the coordinates are degrees ({crs}), and so are lengths, widths and radii; \
-                 degrees of longitude are shorter than those of latitude: project the layer first \
-                 for true ones",
+                 degrees of longitude are shorter than those of latitude: --metric measures in metres",
                 input.name
             ));
         }
@@ -251,6 +252,12 @@ fn told_of_degrees<'a>(
 fn in_degrees(feature: &Feature) -> bool {
     let mut points = feature.polygons.iter().flatten().flatten();
     points.all(|p| p.x.abs() <= 180.0 && p.y.abs() <= 90.0)
+}
+
+/// Whether what was written is features of GeoJSON.
+fn is_features(bytes: &[u8]) -> bool {
+    let start = bytes.iter().position(|&byte| byte == b'{').unwrap_or(bytes.len());
+    start <= geojson::SEPARATOR.len() && bytes[start..].starts_with(b"{\"type\":\"Feature\"")
 }
 
 fn process<R>(
@@ -269,7 +276,7 @@ fn process<R>(
         end: bytes.len(),
         stages: Stages::default(),
     };
-    let feature = match timed(&mut outcome.stages.read, || part.read()) {
+    let mut feature = match timed(&mut outcome.stages.read, || part.read()) {
         Ok(feature) => feature,
         Err(FeatureError { feature, id, error }) => {
             outcome.index = feature;
@@ -288,6 +295,13 @@ fn process<R>(
         outcome.warnings.push(note.text.clone());
         outcome.entries.push(Entry::noted(note));
     }
+    let metric = match common.metric.then(|| Metric::of(&mut feature)).transpose() {
+        Ok(metric) => metric,
+        Err(entry) => {
+            outcome.entries.push(entry);
+            return outcome;
+        }
+    };
     let result = guarded(|| {
         let mut stages = outcome.stages;
         stages.deadline = common.deadline();
@@ -298,7 +312,12 @@ fn process<R>(
                 }
                 outcome.entries.push(entry);
             }
-            work(&feature, &domain, &mut stages, bytes)
+            let result = work(&feature, &domain, &mut stages, bytes)?;
+            // What is no GeoJSON is in metres.
+            if let Some(metric) = metric.filter(|_| is_features(&bytes[outcome.end..])) {
+                timed(&mut stages.write, || metric.restore(bytes, outcome.end))?;
+            }
+            Ok(result)
         });
         outcome.stages = stages;
         result

@@ -1,6 +1,7 @@
 use super::features::Run;
 use crate::args::LocateArgs;
 use crate::failure::{Failure, Status};
+use crate::metric::Metric;
 use crate::output::Output;
 use crate::report::Entry;
 use crate::timings::timed;
@@ -12,6 +13,7 @@ use std::time::Duration;
 /// `medial locate`.
 pub fn run(args: &LocateArgs) -> Result<Status, Failure> {
     let point = Point::new(args.x, args.y);
+    Metric::refuse(&args.common, "locate")?;
     let mut run = Run::new(&args.common)?;
     run.tolerance = args.flattening.tolerance;
     let input = run.open(&args.input)?;
