@@ -258,3 +258,98 @@ fn a_corner_too_flat_to_matter_has_no_branch() {
     assert_eq!((ends(&axis), tips(&axis).len()), (0, 2));
     assert!(axis.keypoints().iter().all(|k| k.kind != KeypointKind::Junction));
 }
+
+/// A convex polygon around the origin with some of its corners rounded, by its corners and radii.
+fn rounded(tolerance: f64, corners: &[Point], radii: &[f64]) -> Drawing {
+    let mut drawing = Drawing::new(tolerance);
+    let n = corners.len();
+    for k in 0..n {
+        let (a, p, b) = (corners[(k + n - 1) % n], corners[k], corners[(k + 1) % n]);
+        let unit = |v: Point| v * (1.0 / v.norm());
+        let (into, out) = (unit(p - a), unit(b - p));
+        let turn = into.cross(out).atan2(into.dot(out));
+        let r = radii[k];
+        if r == 0.0 {
+            drawing.line(p.x, p.y);
+            continue;
+        }
+        let off = r * (0.5 * turn).tan();
+        let start = p - into * off;
+        let centre = start + into.perp() * r;
+        let from = (-into.perp().y).atan2(-into.perp().x);
+        drawing.arc((centre.x, centre.y), [r, r], [from, from + turn]);
+        let end = p + out * off;
+        drawing.line(end.x, end.y);
+    }
+    drawing
+}
+
+/// The boundary from one governor on to another one: the vertices between them.
+fn between(domain: &Domain, left: u32, right: u32) -> Vec<u32> {
+    let mut vertices = vec![domain.edge(left).next];
+    while *vertices.last().unwrap() != right {
+        vertices.push(domain.edge(*vertices.last().unwrap()).next);
+    }
+    vertices
+}
+
+/// What is dropped, asked disk by disk and vertex by vertex.
+#[test]
+fn what_is_dropped_is_what_the_rules_allow() {
+    let mut random = support::random::Random(71);
+    let mut dropped = 0;
+    for _ in 0..200 {
+        let n = 3 + random.below(5) as usize;
+        let corners: Vec<Point> = (0..n)
+            .map(|k| {
+                let t = TAU * (k as f64 + 0.3 * random.unit()) / n as f64;
+                Point::new(10.0 * t.cos(), 10.0 * t.sin())
+            })
+            .collect();
+        let radii: Vec<f64> =
+            (0..n).map(|_| if random.below(3) == 0 { 0.0 } else { 0.2 + random.unit() }).collect();
+        let tolerance = [1e-2, 1e-3][random.below(2) as usize];
+        let drawing = rounded(tolerance, &corners, &radii);
+        let (domain, polygons, curves, axis) = drawing.axis();
+        let hierarchy = Hierarchy::new(&domain, &axis).unwrap();
+        let pruned = hierarchy.without_artefacts(&polygons, &curves, None);
+        // Convex, so that every governor is an edge.
+        let edge_of = |site: u32| {
+            let site = axis.sites().iter().nth(site as usize).unwrap();
+            (0..domain.edges().len() as u32).find(|&e| domain.edge(e).start == site.a).unwrap()
+        };
+        let mut kept = vec![[1.0, 0.0]; axis.paths().len()];
+        pruned.origins.iter().for_each(|origin| kept[origin.path as usize] = origin.part);
+        for (path, [low, high]) in axis.paths().iter().zip(kept) {
+            let (left, right) = (edge_of(path.left), edge_of(path.right));
+            let curve = axis.curve(&path);
+            for u in (0..=20).map(|k| f64::from(k) / 20.0).filter(|&u| u < low || u > high) {
+                let (centre, radius) = (curve.point_at(u), curve.radius_at(u));
+                let is_allowed = |vertices: &[u32]| {
+                    // Two straight edges meet in a corner; an arc has all others.
+                    let piece = |edge: u32| curves.piece_of(&domain.origin(edge));
+                    let bends = vertices.iter().map(|&v| {
+                        let pieces = [piece(domain.edge(v).prev), piece(v)];
+                        pieces.into_iter().flatten().next()
+                    });
+                    let bends: Option<Vec<u32>> = bends.collect();
+                    let by_bend = bends.is_some_and(|pieces| {
+                        let bend = |&p: &u32| curves.pieces[p as usize].start.curvature;
+                        let most = pieces.iter().map(bend).fold(0.0, f64::max);
+                        radius <= 1.0 / most + 1e-9
+                    });
+                    let far = vertices.iter().map(|&v| (domain.edge(v).start - centre).norm());
+                    by_bend || far.fold(0.0, f64::max) - radius <= tolerance * (1.0 + 1e-5)
+                };
+                let sides = [between(&domain, left, right), between(&domain, right, left)];
+                assert!(sides.iter().any(|side| is_allowed(side)), "{u} {corners:?} {radii:?}");
+                dropped += 1;
+            }
+        }
+        // And what is left ends in true corners and in the middles of fillets.
+        let n_corners = radii.iter().filter(|&&r| r == 0.0).count();
+        assert_eq!(ends(&pruned.axis), n_corners, "{corners:?} {radii:?}");
+        assert_eq!(tips(&pruned.axis).len(), n - n_corners, "{corners:?} {radii:?}");
+    }
+    assert!(dropped > 10_000);
+}
