@@ -1,7 +1,7 @@
 //! What happens when the user ends the command: files that are not complete go with it.
 
 use std::io;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 use tempfile::NamedTempFile;
 
@@ -17,12 +17,21 @@ pub fn install() {
     let _ = ctrlc::set_handler(|| {
         // Held to the end, so that no further file is begun.
         let unfinished = UNFINISHED.lock().unwrap_or_else(PoisonError::into_inner);
-        for path in &*unfinished {
-            // Those that are complete by now have another name.
-            let _ = std::fs::remove_file(path);
-        }
+        unfinished.iter().for_each(|path| remove(path));
         std::process::exit(STATUS);
     });
+}
+
+/// Removes a file and those beside it whose names begin like its own: journals of databases, parts of
+/// shapefiles. Those that are complete by now have other names.
+fn remove(path: &Path) {
+    let (Some(folder), Some(name)) = (path.parent(), path.file_name()) else { return };
+    let Ok(entries) = std::fs::read_dir(folder) else { return };
+    for entry in entries.flatten() {
+        if entry.file_name().as_encoded_bytes().starts_with(name.as_encoded_bytes()) {
+            let _ = std::fs::remove_file(entry.path());
+        }
+    }
 }
 
 /// Makes a file that is removed if the process is told to end before it gets its name.
