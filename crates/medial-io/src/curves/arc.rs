@@ -203,6 +203,10 @@ fn circle(
         true => chord * (1.0 / length),
         false => rotated((start - centre).perp() * (sweep.signum() / radius), 0.5 * sweep),
     };
+    // So far from the origin that the circle is a point.
+    if along.norm().is_nan() || along.norm() < 0.5 {
+        return Ok(());
+    }
     let tangent = |turn: f64| {
         let way = rotated(along, turn);
         way * (1.0 / way.norm())
