@@ -434,3 +434,13 @@ fn a_bundle_of_edges_is_snapped_soon() {
     check_repair(&mut Random(1), &polygons, &REPAIR, &domain);
     assert!(domain.report().moved() < 1e-11);
 }
+
+/// A corner is nearer to the line of an edge than doubles of twice the precision tell, on a path of no
+/// length: the judge divided 0 by 0.
+#[test]
+fn distances_far_below_an_ulp_are_judged() {
+    let polygons = shapes::polygons("../issue_7_distance_far_below_an_ulp");
+    let options = Options { dissolve: true, ..REPAIR };
+    let domain = Domain::from_polygons(&polygons, &options).unwrap();
+    check_repair(&mut Random(1), &polygons, &options, &domain);
+}

@@ -78,7 +78,8 @@ fn beside(context: &Context, path: &Path, left: Site, right: Site) -> (f64, f64)
             let d = distance_from_line(start(corner), start(edge), domain.end(edge.index()));
             let width = direction(edge).dot(c2 - c1).abs();
             // Sagitta of the parabola; the radius is convex along it.
-            let sagitta = width * width / (8.0 * d);
+            // A distance far below an ulp may be rounded to 0.
+            let sagitta = if width > 0.0 { width * width / (8.0 * d) } else { 0.0 };
             let middle = 0.5 * (r1 + r2) - sagitta;
             let below = width * (r1 + r2 + 4.0 * middle) / 6.0;
             let error = 8.0 * off * (r1 + r2 + chord + 2.0 * sagitta)
