@@ -1,6 +1,6 @@
 use super::axis::trace;
 use super::features::Run;
-use super::records::{Found, LINES, Plan};
+use super::records::{DRAWN_LINES, Found, LINES, Plan};
 use super::sink::title;
 use crate::args::ClearanceArgs;
 use crate::failure::{Failure, Status};
@@ -43,17 +43,6 @@ const COLUMNS: &[&str] = &[
 
 /// Those of a station of a profile.
 const STATION_COLUMNS: &[&str] = &["station", "x", "y", "width"];
-
-/// Formats of profiles: those of lines, and the plot.
-const PROFILES: &[Format] = &[
-    Format::GeoJson,
-    Format::GeoJsonLines,
-    Format::Csv,
-    Format::Wkt,
-    Format::Wkb,
-    Format::Dxf,
-    Format::Svg,
-];
 
 /// `medial clearance`.
 pub fn run(args: &ClearanceArgs) -> Result<Status, Failure> {
@@ -170,7 +159,7 @@ fn profiles(args: &ClearanceArgs, mut run: Run<'_>) -> Result<Status, Failure> {
     let plan = Plan {
         target: &args.target,
         thing: "profiles",
-        formats: PROFILES,
+        formats: DRAWN_LINES,
         columns: STATION_COLUMNS,
         engine: args.engine,
     };

@@ -32,6 +32,17 @@ pub struct Plan<'a> {
 pub const LINES: &[Format] =
     &[Format::GeoJson, Format::GeoJsonLines, Format::Csv, Format::Wkt, Format::Wkb, Format::Dxf];
 
+/// Formats of lines, and the picture.
+pub const DRAWN_LINES: &[Format] = &[
+    Format::GeoJson,
+    Format::GeoJsonLines,
+    Format::Csv,
+    Format::Wkt,
+    Format::Wkb,
+    Format::Dxf,
+    Format::Svg,
+];
+
 /// Formats of polygons.
 pub const POLYGONS: &[Format] = &record::FORMATS;
 

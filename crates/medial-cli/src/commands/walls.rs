@@ -1,5 +1,5 @@
 use super::features::Run;
-use super::records::{Found, Plan};
+use super::records::{DRAWN_LINES, Found, Plan};
 use super::sink::{boundary, title};
 use crate::args::WallsArgs;
 use crate::failure::{Failure, Status};
@@ -13,16 +13,6 @@ use medial_io::{Format, domain_tolerance};
 
 const COLUMNS: &[&str] = &["length", "width_min", "width_max", "width_mean", "closed"];
 
-const FORMATS: &[Format] = &[
-    Format::GeoJson,
-    Format::GeoJsonLines,
-    Format::Csv,
-    Format::Wkt,
-    Format::Wkb,
-    Format::Dxf,
-    Format::Svg,
-];
-
 /// `medial walls`.
 pub fn run(args: &WallsArgs) -> Result<Status, Failure> {
     if args.min > args.max {
@@ -34,7 +24,7 @@ pub fn run(args: &WallsArgs) -> Result<Status, Failure> {
     let plan = Plan {
         target: &args.target,
         thing: "walls",
-        formats: FORMATS,
+        formats: DRAWN_LINES,
         columns: COLUMNS,
         engine: args.engine,
     };

@@ -91,11 +91,7 @@ impl Hierarchy<'_> {
         let mut lost = Vec::new();
         // What goes from a corner up to a keypoint, if more goes beyond it.
         let mut waiting: BTreeMap<u32, Vec<Cut>> = BTreeMap::new();
-        let mut degree = vec![0_u32; n];
-        for path in self.axis.paths() {
-            degree[path.from as usize] += 1;
-            degree[path.to as usize] += 1;
-        }
+        let degree = self.axis.degrees();
         self.each_part(|part, limb| {
             let (from, to) = (part.from as usize, part.to as usize);
             if stays[from] {

@@ -59,6 +59,13 @@ struct Use {
     forward: bool,
 }
 
+impl Use {
+    /// What crossing the piece from below to above adds.
+    fn weight(&self) -> i32 {
+        if self.forward { 1 } else { -1 }
+    }
+}
+
 /// The domain of polygons that need not be valid.
 ///
 /// Coordinates must be finite and in range.
@@ -78,7 +85,7 @@ pub(super) fn repaired(
     }
     if options.dissolve {
         let before = bounds.len();
-        bounds = dissolved(&pieces, bounds)?;
+        bounds = dissolved(&pieces, &bounds)?;
         if bounds.len() < before {
             entries.push(Entry::of(Repair::Dissolved, 0, 0));
         }
@@ -141,13 +148,13 @@ pub(super) fn repaired(
 impl Edges {
     fn of(polygons: &[Vec<Vec<Point>>], dissolve: bool) -> Self {
         let mut edges = Self::default();
-        let mut known: BTreeMap<Vec<Vec<(i64, i64)>>, u32> = BTreeMap::new();
+        let mut known = HashSet::new();
         for (polygon, rings) in (0..).zip(polygons) {
             let forms: Vec<_> = rings.iter().map(|ring| form(ring)).collect();
             if !dissolve && polygons.len() > 1 {
                 let mut all = forms.clone();
                 all.sort_unstable();
-                if all.iter().any(|form| !form.is_empty()) && known.insert(all, polygon).is_some() {
+                if all.iter().any(|form| !form.is_empty()) && !known.insert(all) {
                     edges.entries.push(Entry::of(Repair::DuplicateRing, polygon, 0));
                     continue;
                 }
@@ -230,7 +237,7 @@ fn bounds_of(pieces: &[Piece], uses: &[Use], fill: FillRule) -> Result<Vec<Use>,
     for same in uses.chunk_by(|a, b| a.piece == b.piece) {
         let weight = match fill {
             FillRule::EvenOdd => same.len() as i32 % 2,
-            FillRule::NonZero => same.iter().map(|u| if u.forward { 1 } else { -1 }).sum(),
+            FillRule::NonZero => same.iter().map(Use::weight).sum(),
         };
         if weight != 0 {
             own.push((same[0], weight));
@@ -259,16 +266,20 @@ fn selected(
     Ok(bounds.collect())
 }
 
-/// The bounds of all polygons together, as those of the first one.
-fn dissolved(pieces: &[Piece], mut bounds: Vec<Use>) -> Result<Vec<Use>, DomainError> {
+/// The bounds of all polygons laid on one another: each piece once, with the sum of its weights.
+fn laid_together(bounds: &[Use]) -> Vec<(Use, i32)> {
+    let mut bounds = bounds.to_vec();
     bounds.sort_by_key(|u| u.piece);
-    let own = bounds
-        .chunk_by(|a, b| a.piece == b.piece)
-        .map(|same| {
-            let weight = same.iter().map(|u| if u.forward { 1 } else { -1 }).sum();
-            (Use { polygon: 0, ..same[0] }, weight)
-        })
+    let same = bounds.chunk_by(|a, b| a.piece == b.piece);
+    same.map(|same| (same[0], same.iter().map(Use::weight).sum())).collect()
+}
+
+/// The bounds of all polygons together, as those of the first one.
+fn dissolved(pieces: &[Piece], bounds: &[Use]) -> Result<Vec<Use>, DomainError> {
+    let own = laid_together(bounds)
+        .into_iter()
         .filter(|&(_, weight)| weight != 0)
+        .map(|(u, weight)| (Use { polygon: 0, ..u }, weight))
         .collect();
     selected(pieces, own, |number| number > 0)
 }
@@ -279,18 +290,11 @@ fn overlap(pieces: &[Piece], bounds: &[Use]) -> Result<Option<(Point, [Use; 2])>
     if polygons.len() < 2 {
         return Ok(None);
     }
-    // How many polygons there are on either side of a piece, all of which are laid on one another.
-    let numbers = |uses: &[Use]| {
-        let mut uses = uses.to_vec();
-        uses.sort_by_key(|u| u.piece);
-        let (mut own, mut weights) = (Vec::new(), Vec::new());
-        for same in uses.chunk_by(|a, b| a.piece == b.piece) {
-            own.push(pieces[same[0].piece as usize]);
-            weights.push(same.iter().map(|u| if u.forward { 1 } else { -1 }).sum());
-        }
-        Ok::<_, DomainError>((winding::numbers(&own, &weights)?, own))
-    };
-    let (found, own) = numbers(bounds)?;
+    let place = |u: &Use| pieces[u.piece as usize];
+    let (own, weights): (Vec<Piece>, Vec<i32>) =
+        laid_together(bounds).iter().map(|(u, weight)| (place(u), *weight)).unzip();
+    // How many polygons there are on either side of a piece.
+    let found = winding::numbers(&own, &weights)?;
     let Some(k) = found.iter().position(|sides| sides.iter().any(|&side| side > 1)) else {
         return Ok(None);
     };
@@ -299,13 +303,13 @@ fn overlap(pieces: &[Piece], bounds: &[Use]) -> Result<Option<(Point, [Use; 2])>
     let mut both = Vec::new();
     for &of_one in &polygons {
         // A piece without weight tells what is beside it.
-        let is_own = |u: &Use| pieces[u.piece as usize] == own[k];
+        let is_own = |u: &Use| place(u) == own[k];
         let number = match of_one.iter().find(|u| is_own(u)) {
             Some(u) => i32::from(u.forward == (side == 1)),
             None => {
                 let (mut places, mut weights) = (vec![own[k]], vec![0]);
-                places.extend(of_one.iter().map(|u| pieces[u.piece as usize]));
-                weights.extend(of_one.iter().map(|u| if u.forward { 1 } else { -1 }));
+                places.extend(of_one.iter().map(place));
+                weights.extend(of_one.iter().map(Use::weight));
                 winding::numbers(&places, &weights)?[0][side]
             }
         };
