@@ -27,13 +27,15 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! Each module uses only those before it: `geom < domain < axis < engine < check < ops`.
+//! Each module uses only those before it: `geom < domain < axis < raster < engine < check < ops`.
 
 pub mod geom;
 
 pub mod domain;
 
 pub mod axis;
+
+pub mod raster;
 
 pub mod engine;
 

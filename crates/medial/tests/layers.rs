@@ -8,7 +8,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The modules of `medial`, each using only those before it.
-const LAYERS: [&str; 6] = ["geom", "domain", "axis", "engine", "check", "ops"];
+const LAYERS: [&str; 7] = ["geom", "domain", "axis", "raster", "engine", "check", "ops"];
 
 /// The crates of the workspace, each using only those before it.
 const CRATES: [&str; 3] = ["medial", "medial-io", "medial-cli"];

@@ -13,6 +13,16 @@ pub enum Engine {
     PathTracing,
     /// Divide and conquer after Lee: exact.
     DivideAndConquer,
+    /// Distances and thinning on cells: sampled, with the topology of the mask.
+    RasterTransform,
+}
+
+impl Engine {
+    /// Whether axes of this engine are exact.
+    #[must_use]
+    pub const fn is_exact(self) -> bool {
+        matches!(self, Self::PathTracing | Self::DivideAndConquer)
+    }
 }
 
 /// The side of the boundary on which an axis lies.

@@ -54,6 +54,7 @@ pub(crate) use names;
 names!(
     Engine, "engine",
     PathTracing => "path_tracing", DivideAndConquer => "divide_and_conquer",
+    RasterTransform => "raster_transform",
 );
 names!(Side, "side", Interior => "interior", Exterior => "exterior");
 names!(CurveKind, "curve", Line => "line", Parabola => "parabola");

@@ -1,4 +1,6 @@
+use crate::axis::Engine;
 use crate::geom::Point;
+use crate::raster::DigitiseError;
 
 /// Why an engine gave no axis.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -28,6 +30,15 @@ pub enum EngineError {
     Frame {
         /// How far the box of the polygons was to grow.
         margin: f64,
+    },
+    /// The domain cannot be put into cells of that size.
+    #[error(transparent)]
+    Cells(#[from] DigitiseError),
+    /// The engine has no axis of the outside.
+    #[error("{engine} finds no axis outside of polygons; use path_tracing")]
+    NoExterior {
+        /// The engine that was asked.
+        engine: Engine,
     },
     /// Another thread set the flag that cancels.
     #[error("cancelled")]

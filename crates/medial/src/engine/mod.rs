@@ -7,6 +7,8 @@ mod error;
 mod exterior;
 mod options;
 mod path_tracing;
+mod raster_transform;
+mod sampled;
 mod threads;
 mod watch;
 
@@ -19,4 +21,7 @@ pub use exterior::{both_sides, exterior, exterior_frame, interior};
 pub use options::Options;
 pub use path_tracing::{
     Candidate, Step, Steps, path_tracing, path_tracing_steps, path_tracing_with,
+};
+pub use raster_transform::{
+    DEFAULT_RESIDUAL, Skeleton, raster_transform, raster_transform_of_domain,
 };

@@ -2,7 +2,7 @@ use std::num::NonZeroUsize;
 use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
-/// How an engine works: never what it gives.
+/// How an engine works: never what it gives, but for the cells of engines that have some.
 ///
 /// The default is one thread and no limit.
 ///
@@ -29,10 +29,19 @@ pub struct Options<'a> {
     pub deadline: Option<Instant>,
     /// Domains and polygons of fewer edges are traced by one thread alone.
     pub alone_below: usize,
+    /// The size of cells, in units of the input, for engines that put domains into cells; by default
+    /// [`default_cell`](crate::raster::default_cell).
+    pub cell: Option<f64>,
 }
 
 impl Default for Options<'_> {
     fn default() -> Self {
-        Self { threads: NonZeroUsize::MIN, cancel: None, deadline: None, alone_below: 10_000 }
+        Self {
+            threads: NonZeroUsize::MIN,
+            cancel: None,
+            deadline: None,
+            alone_below: 10_000,
+            cell: None,
+        }
     }
 }

@@ -22,14 +22,16 @@ mod frame;
 
 use super::divide_and_conquer::{self, divide_and_conquer_with};
 use super::draft::site_record;
-use super::{EngineError, Options, path_tracing_with};
+use super::{
+    DEFAULT_RESIDUAL, EngineError, Options, path_tracing_with, raster_transform_of_domain,
+};
 use crate::axis::{Accuracy, Engine, KeypointKind, MedialAxis, Path, Side};
 use crate::domain::{Complement, Domain, Site};
 use crate::geom::{Point, Rect};
 use cut::{Cut, End};
 use frame::Frame;
 
-/// The exact medial axis of the interior of a domain, by an exact engine.
+/// The medial axis of the interior of a domain, by any engine.
 ///
 /// # Errors
 /// Those of [`path_tracing_with`] or [`divide_and_conquer_with`].
@@ -41,6 +43,9 @@ pub fn interior(
     match engine {
         Engine::PathTracing => path_tracing_with(domain, options),
         Engine::DivideAndConquer => divide_and_conquer_with(domain, options),
+        Engine::RasterTransform => {
+            raster_transform_of_domain(domain, Some(DEFAULT_RESIDUAL), options)
+        }
     }
 }
 
@@ -74,6 +79,9 @@ pub fn exterior(
     margin: Option<f64>,
     options: &Options<'_>,
 ) -> Result<MedialAxis, EngineError> {
+    if !engine.is_exact() {
+        return Err(EngineError::NoExterior { engine });
+    }
     let frame = Frame::around(domain, margin)?;
     let outside = complement(domain, &frame)?;
     let whole = interior(outside.domain(), engine, options)?;
@@ -93,11 +101,14 @@ pub fn both_sides(
     margin: Option<f64>,
     options: &Options<'_>,
 ) -> Result<[MedialAxis; 2], EngineError> {
+    if !engine.is_exact() {
+        return Err(EngineError::NoExterior { engine });
+    }
     let frame = Frame::around(domain, margin)?;
     let outside = complement(domain, &frame)?;
     let at_once = match engine {
         Engine::DivideAndConquer => divide_and_conquer::both_sides(domain, &outside, options)?,
-        Engine::PathTracing => None,
+        Engine::PathTracing | Engine::RasterTransform => None,
     };
     let [inner, whole] = match at_once {
         Some(axes) => axes,

@@ -1,0 +1,309 @@
+//! The axis made of cells: keypoints at their centres, a path for each step from one to the next.
+//!
+//! Paths carry the elements at both sides: the one whose nearest point is the foot of the cell, and the one
+//! that is nearest to the cell at the other side. They are as true as cells are small, and prove nothing.
+
+use std::ops::ControlFlow;
+
+use super::EngineError;
+use super::draft::site_record;
+use crate::axis::{
+    self, Accuracy, Engine, Keypoint, KeypointKind, KeypointTable, MedialAxis, Path, PathTable,
+    Side, SiteTable,
+};
+use crate::domain::{Corner, Domain, EdgeTree, Site};
+use crate::geom::Point;
+use crate::raster::{Cracks, Features, Grid, Mask, PixelGraph, Side as CellSide};
+
+/// The boundary as cells see it.
+pub(super) trait Boundary {
+    /// The element nearest to a cell of the shape, and the point of it that is, from the centre of the cell.
+    fn foot(&self, x: i32, y: i32) -> Foot;
+
+    /// The element nearest to a cell beside one of the shape, which may lie outside.
+    fn beside(&self, x: i32, y: i32, from: [i32; 2]) -> u32;
+
+    /// Elements, in boundary order.
+    fn len(&self) -> u32;
+
+    /// What an axis says of an element.
+    fn record(&self, element: u32) -> axis::Site;
+}
+
+/// What is nearest to a cell.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Foot {
+    pub element: u32,
+    /// Distance of the centre from the boundary, in units of the plane.
+    pub radius: f64,
+    /// From the centre to the nearest point, in the plane.
+    pub way: Point,
+}
+
+/// The outline of a mask.
+pub(super) struct OutlineBoundary<'a> {
+    pub mask: &'a Mask,
+    pub features: &'a Features,
+    pub cracks: &'a Cracks,
+}
+
+impl OutlineBoundary<'_> {
+    /// The edge with the crack of a cell outside that faces another cell.
+    fn edge(&self, [x, y]: [i32; 2], to: [i32; 2]) -> u32 {
+        let side = CellSide::facing(to[0] - x, to[1] - y);
+        let record = self.features.cells[self.features.place(x, y)];
+        self.cracks.edge_of[self.cracks.at(record, side) as usize]
+    }
+
+    fn edge_nearest(&self, x: i32, y: i32) -> u32 {
+        let (dx, dy) = self.features.offset(x, y);
+        self.edge([x + dx, y + dy], [x, y])
+    }
+}
+
+impl Boundary for OutlineBoundary<'_> {
+    fn foot(&self, x: i32, y: i32) -> Foot {
+        let (dx, dy) = self.features.offset(x, y);
+        let [width, height] = self.mask.grid().cell;
+        let way = Point::new(f64::from(dx) * width, f64::from(dy) * height);
+        Foot {
+            element: self.edge_nearest(x, y),
+            radius: cell_radius(self.mask.grid(), dx, dy),
+            way,
+        }
+    }
+
+    fn beside(&self, x: i32, y: i32, from: [i32; 2]) -> u32 {
+        if self.mask.bits.get(x, y) { self.edge_nearest(x, y) } else { self.edge([x, y], from) }
+    }
+
+    fn len(&self) -> u32 {
+        self.cracks.edges.len() as u32
+    }
+
+    fn record(&self, element: u32) -> axis::Site {
+        let edge = &self.cracks.edges[element as usize];
+        let contour = &self.cracks.contours[edge.contour as usize];
+        let grid = self.mask.grid();
+        let [from, to] = [edge.from, edge.to].map(|[column, row]| grid.corner(column, row));
+        // The shape is to the left as long as rows go up when columns go to the right.
+        let (a, b) = if grid.is_mirrored() { (to, from) } else { (from, to) };
+        let index = element - contour.first;
+        let site = axis::Site::edge(a, b);
+        axis::Site { polygon: contour.polygon, ring: contour.ring, index, ..site }
+    }
+}
+
+/// The radius at a cell, so many columns and rows from the nearest cell outside: the distance between both
+/// centres less half a cell.
+pub(super) fn cell_radius(grid: &Grid, dx: i32, dy: i32) -> f64 {
+    let [width, height] = grid.cell.map(f64::abs);
+    if width == height {
+        return (f64::from(dx * dx + dy * dy).sqrt() - 0.5) * width;
+    }
+    let (x, y) = (f64::from(dx) * width, f64::from(dy) * height);
+    let distance = (x * x + y * y).sqrt();
+    // Half a cell in that direction.
+    let half = 0.5 * ((x * width).powi(2) + (y * height).powi(2)).sqrt() / distance;
+    distance - half
+}
+
+/// The boundary of a domain.
+pub(super) struct DomainBoundary<'a> {
+    domain: &'a Domain,
+    grid: &'a Grid,
+    tree: EdgeTree,
+}
+
+impl<'a> DomainBoundary<'a> {
+    pub fn new(domain: &'a Domain, grid: &'a Grid) -> Self {
+        Self { domain, grid, tree: EdgeTree::new(domain, domain.walks()) }
+    }
+
+    /// The element nearest to a point, its distance, and the way to it.
+    fn nearest(&self, point: Point) -> (Site, f64, Point) {
+        let mut best = (Site(0), f64::INFINITY, Point::default());
+        let _ = self.tree.nearest_first(point, |edge| {
+            let (start, end) = (self.domain.edge(edge).start, self.domain.end(edge));
+            let side = axis::Site::edge(start, end);
+            let foot = side.footpoint(point);
+            let distance = (foot - point).norm();
+            if distance < best.1 {
+                let is_reflex = |edge: u32| self.domain.edge(edge).corner == Corner::Reflex;
+                let next = self.domain.edge(edge).next;
+                let site = if foot == start && is_reflex(edge) {
+                    Site::corner(edge)
+                } else if foot == end && is_reflex(next) {
+                    Site::corner(next)
+                } else {
+                    Site::edge(edge)
+                };
+                best = (site, distance, foot - point);
+            }
+            ControlFlow::Continue(best.1)
+        });
+        best
+    }
+}
+
+impl Boundary for DomainBoundary<'_> {
+    fn foot(&self, x: i32, y: i32) -> Foot {
+        let (site, radius, way) = self.nearest(self.grid.centre(x as u32, y as u32));
+        Foot { element: site.0, radius, way }
+    }
+
+    fn beside(&self, x: i32, y: i32, _: [i32; 2]) -> u32 {
+        let centre = self.grid.place(f64::from(x) + 0.5, f64::from(y) + 0.5);
+        self.nearest(centre).0.0
+    }
+
+    fn len(&self) -> u32 {
+        2 * self.domain.edges().len() as u32
+    }
+
+    fn record(&self, element: u32) -> axis::Site {
+        site_record(self.domain, Site(element))
+    }
+}
+
+/// What an axis of cells says of itself.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Label {
+    pub engine: Engine,
+    pub complete: bool,
+    /// The size of a cell.
+    pub cell: f64,
+}
+
+/// The axis of a graph of cells.
+///
+/// # Errors
+/// If there are too many elements or nodes for 32-bit numbers.
+pub(super) fn axis_of_cells(
+    graph: &PixelGraph,
+    grid: &Grid,
+    boundary: &impl Boundary,
+    label: Label,
+) -> Result<MedialAxis, EngineError> {
+    let feet: Vec<Foot> =
+        graph.cells.iter().map(|&[x, y]| boundary.foot(x as i32, y as i32)).collect();
+    // Elements to the left and right of each step.
+    let sides: Vec<[u32; 2]> =
+        graph.steps.iter().map(|&step| sides_of(graph, grid, boundary, &feet, step)).collect();
+    let mut number = vec![u32::MAX; boundary.len() as usize];
+    let (starts, incident) = graph.incidence();
+    let lists: Vec<Vec<u32>> = (0..graph.cells.len())
+        .map(|node| {
+            let around = &incident[starts[node] as usize..starts[node + 1] as usize];
+            governors(graph, grid, boundary, &feet, &sides, node as u32, around)
+        })
+        .collect();
+    lists.iter().flatten().for_each(|&element| number[element as usize] = 0);
+    let too_large = || EngineError::TooLarge { n_edges: boundary.len() as usize };
+    let mut sites = SiteTable::with_room(0, 0, 0);
+    for (element, number) in (0..).zip(&mut number).filter(|(_, number)| **number == 0) {
+        *number = sites.len();
+        sites.push(&boundary.record(element)).ok_or_else(too_large)?;
+    }
+    sites.shrink();
+    let mut keypoints = KeypointTable::with_room(graph.cells.len());
+    for ((node, &[x, y]), list) in (0..).zip(&graph.cells).zip(lists) {
+        let kind = match starts[node + 1] - starts[node] {
+            0 | 1 => KeypointKind::Tip,
+            2 => KeypointKind::Transition,
+            _ => KeypointKind::Junction,
+        };
+        let mut list: Vec<u32> = list.into_iter().map(|element| number[element as usize]).collect();
+        let smallest = (0..list.len()).min_by_key(|&k| list[k]).unwrap_or(0);
+        list.rotate_left(smallest);
+        let radius = feet[node].radius;
+        keypoints.push(&Keypoint { position: grid.centre(x, y), radius, kind }, list.into_iter());
+    }
+    let mut paths = PathTable::with_room(graph.steps.len());
+    for (&[from, to], sides) in graph.steps.iter().zip(&sides) {
+        let [left, right] = sides.map(|element| number[element as usize]);
+        paths.push(&Path { from, to, left, right }, &keypoints);
+    }
+    paths.shrink();
+    let Label { engine, complete, cell } = label;
+    let accuracy = Accuracy::Sampled(cell);
+    Ok(MedialAxis::from_tables(engine, Side::Interior, accuracy, complete, sites, keypoints, paths))
+}
+
+/// The direction of a step, in columns and rows.
+fn direction(graph: &PixelGraph, from: u32, to: u32) -> [i32; 2] {
+    let ([x1, y1], [x2, y2]) = (graph.cells[from as usize], graph.cells[to as usize]);
+    [x2 as i32 - x1 as i32, y2 as i32 - y1 as i32]
+}
+
+/// The elements to the left and to the right of a step.
+fn sides_of(
+    graph: &PixelGraph,
+    grid: &Grid,
+    boundary: &impl Boundary,
+    feet: &[Foot],
+    [from, to]: [u32; 2],
+) -> [u32; 2] {
+    let [dx, dy] = direction(graph, from, to);
+    let [x, y] = graph.cells[from as usize].map(|at| at as i32);
+    let foot = &feet[from as usize];
+    let [width, height] = grid.cell;
+    let along = Point::new(f64::from(dx) * width, f64::from(dy) * height);
+    let turn = along.cross(foot.way);
+    // The neighbour to the left, counted in columns and rows.
+    let [ux, uy] = [dx.signum(), dy.signum()];
+    let left = |sign: i32| {
+        let sign = if grid.is_mirrored() { -sign } else { sign };
+        let [lx, ly] = [-uy * sign, ux * sign];
+        // Between two cells that touch at a corner, the one at both their sides.
+        if ux != 0 && uy != 0 { [(ux + lx) / 2, (uy + ly) / 2] } else { [lx, ly] }
+    };
+    [(1, turn > 0.0), (-1, turn < 0.0)].map(|(sign, is_own)| {
+        if is_own {
+            return foot.element;
+        }
+        let [lx, ly] = left(sign);
+        boundary.beside(x + lx, y + ly, [x, y])
+    })
+}
+
+/// The elements around a node, counterclockwise.
+fn governors(
+    graph: &PixelGraph,
+    grid: &Grid,
+    boundary: &impl Boundary,
+    feet: &[Foot],
+    sides: &[[u32; 2]],
+    node: u32,
+    around: &[u32],
+) -> Vec<u32> {
+    let [width, height] = grid.cell;
+    let mut list: Vec<u32> = Vec::with_capacity(around.len().max(2));
+    if around.is_empty() {
+        let [x, y] = graph.cells[node as usize].map(|at| at as i32);
+        list.push(feet[node as usize].element);
+        let turn = if grid.is_mirrored() { -1 } else { 1 };
+        let sides = [[1, 0], [0, turn], [-1, 0], [0, -turn]];
+        list.extend(sides.map(|[dx, dy]| boundary.beside(x + dx, y + dy, [x, y])));
+    } else {
+        let outwards = |&step: &u32| {
+            let [from, to] = graph.steps[step as usize];
+            let [left, right] = sides[step as usize];
+            let (to, left, right) =
+                if from == node { (to, left, right) } else { (from, right, left) };
+            let [dx, dy] = direction(graph, node, to);
+            let way = Point::new(f64::from(dx) * width, f64::from(dy) * height);
+            (way.y.atan2(way.x), left, right)
+        };
+        let mut ways: Vec<(f64, u32, u32)> = around.iter().map(outwards).collect();
+        ways.sort_by(|a, b| a.0.total_cmp(&b.0));
+        for (_, left, right) in ways {
+            list.extend([right, left]);
+        }
+    }
+    list.dedup();
+    while list.len() > 1 && list.first() == list.last() {
+        list.pop();
+    }
+    list
+}

@@ -1,0 +1,316 @@
+//! Bits in rows, with a frame of zeros around them.
+
+/// One bit for each cell of an array.
+///
+/// Rows start with a byte of zeros and end with at least one, and a row of zeros comes before the first and
+/// after the last, so the neighbours of any cell can be asked for.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct Bits {
+    columns: u32,
+    rows: u32,
+    /// Bytes from one row to the next.
+    stride: usize,
+    data: Vec<u8>,
+}
+
+/// Bytes behind the last row, so that words can be read from anywhere.
+const SLACK: usize = 8;
+
+/// The bit of the cell itself in a [window](Bits::window).
+const WINDOW_CENTRE: u16 = 1 << 4;
+
+/// The bits of its eight neighbours.
+pub(crate) const WINDOW_RING: u16 = 0x1ff & !WINDOW_CENTRE;
+
+impl Bits {
+    pub fn new(columns: u32, rows: u32) -> Self {
+        let stride = (columns as usize).div_ceil(8) + 2;
+        let data = vec![0; stride * (rows as usize + 2) + SLACK];
+        Self { columns, rows, stride, data }
+    }
+
+    pub fn columns(&self) -> u32 {
+        self.columns
+    }
+
+    pub fn rows(&self) -> u32 {
+        self.rows
+    }
+
+    #[inline(always)]
+    fn byte(&self, x: i32, y: i32) -> usize {
+        debug_assert!(
+            (-1..=self.columns as i32).contains(&x) && (-1..=self.rows as i32).contains(&y)
+        );
+        (y + 1) as usize * self.stride + ((x + 8) >> 3) as usize
+    }
+
+    /// The bit of a cell, which may lie just outside of the array.
+    #[inline(always)]
+    pub fn get(&self, x: i32, y: i32) -> bool {
+        self.data[self.byte(x, y)] >> (x & 7) & 1 != 0
+    }
+
+    #[inline(always)]
+    pub fn set(&mut self, x: i32, y: i32) {
+        let byte = self.byte(x, y);
+        self.data[byte] |= 1 << (x & 7);
+    }
+
+    #[inline(always)]
+    pub fn clear(&mut self, x: i32, y: i32) {
+        let byte = self.byte(x, y);
+        self.data[byte] &= !(1 << (x & 7));
+    }
+
+    /// Sets all cells of a row from one column up to, but not with, another one.
+    pub fn set_run(&mut self, y: u32, from: u32, to: u32) {
+        let (mut x, to) = (from as i32, to as i32);
+        while x < to && x & 7 != 0 {
+            self.set(x, y as i32);
+            x += 1;
+        }
+        let whole = ((to - x) / 8).max(0);
+        let first = self.byte(x, y as i32);
+        self.data[first..first + whole as usize].fill(0xff);
+        for x in x + 8 * whole..to {
+            self.set(x, y as i32);
+        }
+    }
+
+    /// Clears all cells of a row from one column up to, but not with, another one.
+    pub fn clear_run(&mut self, y: u32, from: u32, to: u32) {
+        (from..to).for_each(|x| self.clear(x as i32, y as i32));
+    }
+
+    /// A cell and its eight neighbours, three bits a row from the one above, each from the left.
+    #[inline(always)]
+    pub fn window(&self, x: i32, y: i32) -> u16 {
+        let shift = (x + 7) & 7;
+        let first = self.byte(x, y) - self.stride - usize::from(x & 7 == 0);
+        let three = |at: usize| {
+            let pair = [self.data[at], self.data[at + 1]];
+            u16::from_le_bytes(pair) >> shift & 7
+        };
+        three(first) | three(first + self.stride) << 3 | three(first + 2 * self.stride) << 6
+    }
+
+    /// Up to 64 bits of a row from a column that is a multiple of 8.
+    #[inline(always)]
+    fn word(&self, x: u32, y: u32) -> u64 {
+        let at = self.byte(x as i32, y as i32);
+        let word = u64::from_le_bytes(self.data[at..at + 8].try_into().unwrap_or_default());
+        let left = self.columns - x;
+        if left < 64 { word & ((1 << left) - 1) } else { word }
+    }
+
+    /// The runs of ones in a row: their first column, and the one behind their last.
+    pub fn runs(&self, y: u32) -> Runs<'_> {
+        Runs { bits: self, y, next: 0, word: 0, base: 0 }
+    }
+
+    /// The columns of the ones in a row.
+    pub fn ones(&self, y: u32) -> impl Iterator<Item = u32> + '_ {
+        (0..self.columns).step_by(64).flat_map(move |x| {
+            let mut word = self.word(x, y);
+            std::iter::from_fn(move || {
+                let place = word.trailing_zeros();
+                word &= word.wrapping_sub(1);
+                (place < 64).then_some(x + place)
+            })
+        })
+    }
+
+    /// The number of ones.
+    pub fn count(&self) -> u64 {
+        self.data.iter().map(|byte| u64::from(byte.count_ones())).sum()
+    }
+
+    /// The bytes of a row, the first cell in the lowest bit; nothing stands behind the last one.
+    pub fn row_bytes(&self, y: u32) -> &[u8] {
+        let at = self.byte(0, y as i32);
+        &self.data[at..at + (self.columns as usize).div_ceil(8)]
+    }
+
+    /// Takes over a row, the first cell in the lowest bit.
+    pub fn put_row(&mut self, y: u32, bytes: &[u8]) {
+        let (at, n) = (self.byte(0, y as i32), (self.columns as usize).div_ceil(8));
+        self.data[at..at + n].copy_from_slice(&bytes[..n]);
+        if self.columns % 8 != 0 {
+            self.data[at + n - 1] &= (1 << (self.columns % 8)) - 1;
+        }
+    }
+}
+
+/// The runs of ones in a row.
+pub(crate) struct Runs<'b> {
+    bits: &'b Bits,
+    y: u32,
+    /// Where the next word starts.
+    next: u32,
+    /// What is left of the last word, and where that starts.
+    word: u64,
+    base: u32,
+}
+
+impl Runs<'_> {
+    /// Goes on to the next word; whether there is one.
+    #[inline(always)]
+    fn advance(&mut self) -> bool {
+        if self.next >= self.bits.columns {
+            return false;
+        }
+        (self.base, self.word) = (self.next, self.bits.word(self.next, self.y));
+        self.next += 64;
+        true
+    }
+}
+
+impl Iterator for Runs<'_> {
+    type Item = (u32, u32);
+
+    #[inline]
+    fn next(&mut self) -> Option<(u32, u32)> {
+        while self.word == 0 {
+            if !self.advance() {
+                return None;
+            }
+        }
+        let first = self.word.trailing_zeros();
+        let start = self.base + first;
+        // Zeros where the run goes on.
+        let mut rest = !(self.word | ((1_u64 << first) - 1));
+        while rest == 0 {
+            if !self.advance() {
+                self.word = 0;
+                return Some((start, self.bits.columns));
+            }
+            rest = !self.word;
+        }
+        let end = rest.trailing_zeros();
+        self.word &= !((1_u64 << end) - 1);
+        Some((start, (self.base + end).min(self.bits.columns)))
+    }
+}
+
+/// Whether the cell in the middle of a window can go without changing components and holes.
+///
+/// Its neighbours that are set hold together without it, and of those that are not just one connected set
+/// touches it by a side.
+pub(crate) static SIMPLE: [bool; 512] = simple_table();
+
+/// The eight neighbours in a window, counterclockwise from the right.
+const RING: [u16; 8] = [5, 8, 7, 6, 3, 0, 1, 2];
+
+const fn simple_table() -> [bool; 512] {
+    let mut table = [false; 512];
+    let mut window = 0;
+    while window < 512 {
+        table[window] = is_simple(window as u16);
+        window += 1;
+    }
+    table
+}
+
+const fn is_simple(window: u16) -> bool {
+    // Sides stand at even places of the ring. A corner whose two sides are set adds nothing, so with it
+    // filled in, each change from set to unset is one connected set of neighbours.
+    let mut ring = [false; 8];
+    let mut k = 0;
+    while k < 8 {
+        ring[k] = window >> RING[k] & 1 != 0;
+        k += 1;
+    }
+    let mut k = 1;
+    while k < 8 {
+        ring[k] = ring[k] || (ring[k - 1] && ring[(k + 1) % 8]);
+        k += 2;
+    }
+    let (mut changes, mut sides) = (0, 0);
+    let mut k = 0;
+    while k < 8 {
+        changes += (ring[k] && !ring[(k + 1) % 8]) as u32;
+        sides += (k % 2 == 0 && ring[k]) as u32;
+        k += 1;
+    }
+    changes == 1 && sides < 4
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn drawn(rows: &[&str]) -> Bits {
+        let mut bits = Bits::new(rows[0].len() as u32, rows.len() as u32);
+        for (y, row) in rows.iter().enumerate() {
+            for (x, _) in row.bytes().enumerate().filter(|&(_, b)| b == b'#') {
+                bits.set(x as i32, y as i32);
+            }
+        }
+        bits
+    }
+
+    #[test]
+    fn runs_go_over_words() {
+        for n in [1, 7, 8, 63, 64, 65, 127, 128, 129, 200] {
+            let mut bits = Bits::new(n, 1);
+            bits.set_run(0, 0, n);
+            assert_eq!(bits.runs(0).collect::<Vec<_>>(), [(0, n)]);
+            assert_eq!(bits.count(), u64::from(n));
+            for hole in 0..n {
+                let mut bits = bits.clone();
+                bits.clear(hole as i32, 0);
+                let expected: Vec<(u32, u32)> =
+                    [(0, hole), (hole + 1, n)].into_iter().filter(|(a, b)| a < b).collect();
+                assert_eq!(bits.runs(0).collect::<Vec<_>>(), expected, "{n} {hole}");
+                let ones: Vec<u32> = (0..n).filter(|&x| x != hole).collect();
+                assert_eq!(bits.ones(0).collect::<Vec<_>>(), ones);
+            }
+        }
+    }
+
+    #[test]
+    fn a_window_is_the_cell_and_its_neighbours() {
+        let bits = drawn(&["#..#..#..#.#", ".##..#.#.##.", "#...###...#."]);
+        for y in 0..3 {
+            for x in 0..12 {
+                let mut expected = 0;
+                for (k, (dy, dx)) in (0..9).map(|k| (k, (k / 3 - 1, k % 3 - 1))) {
+                    expected |= u16::from(bits.get(x + dx, y + dy)) << k;
+                }
+                assert_eq!(bits.window(x, y), expected, "{x} {y}");
+            }
+        }
+    }
+
+    /// Whether the set bits of a window, without the centre, are one set of neighbours by that rule.
+    fn sets(cells: u16, near: impl Fn(i32, i32) -> bool, counts: impl Fn(i32) -> bool) -> usize {
+        let mut left: Vec<i32> = (0..9).filter(|&k| k != 4 && cells >> k & 1 != 0).collect();
+        let mut n = 0;
+        while let Some(first) = left.pop() {
+            let mut set = vec![first];
+            let mut k = 0;
+            while k < set.len() {
+                let (at, rest): (Vec<i32>, Vec<i32>) =
+                    left.iter().partition(|&&other| near(set[k], other));
+                set.extend(at);
+                left = rest;
+                k += 1;
+            }
+            n += usize::from(set.into_iter().any(&counts));
+        }
+        n
+    }
+
+    #[test]
+    fn simple_cells_are_those_by_definition() {
+        let apart = |a: i32, b: i32| ((a % 3 - b % 3).abs(), (a / 3 - b / 3).abs());
+        let by_corner = |a, b| apart(a, b).0 <= 1 && apart(a, b).1 <= 1;
+        let by_side = |a, b| apart(a, b).0 + apart(a, b).1 == 1;
+        for window in 0..512_u16 {
+            let inside = sets(window, by_corner, |_| true);
+            let outside = sets(!window & 0x1ff, by_side, |k| by_side(k, 4));
+            assert_eq!(SIMPLE[window as usize], inside == 1 && outside == 1, "{window:09b}");
+        }
+    }
+}
