@@ -61,6 +61,12 @@ def programs(rivals, files):
     return commands
 
 
+def raster():
+    """The programs of ours that time bitmaps, by name."""
+    folder = cargo(BENCH, "-p", "medial-bench", "-p", "medial-bench-rivals")
+    return {"bench": folder / "medial-bench", "rivals": folder / "rivals"}
+
+
 def cpp(name, program):
     compiler = os.environ.get("CXX", "g++")
     need(shutil.which(compiler), "g++")

@@ -1,5 +1,6 @@
 //! What the programs of the comparison share: shapes, their text, and how time is taken.
 
+pub mod bitmap;
 pub mod measure;
 pub mod shapes;
 pub mod text;

@@ -9,7 +9,8 @@
 //! `medial-bench axis SHAPE EDGES` computes the axis of a shape once, for counting
 //! instructions in `medial_bench_domain` and `medial_bench_engine`; `medial-bench work SHAPE EDGES`
 //! prints the numbers of edges and rings, and what the merges of `divide_and_conquer` did: pieces,
-//! arcs, starts.
+//! arcs, starts; `medial-bench raster FILE.pbm` times the raster transform of a bitmap,
+//! and `medial-bench skeleton FILE.pbm TARGET.pbm [none]` writes its medial cells.
 
 use std::{env, hint};
 
@@ -17,15 +18,16 @@ use cpu_time::ThreadTime;
 use medial::axis::{Engine, MedialAxis};
 use medial::domain::{Domain, DomainError, Options};
 use medial::engine::{
-    self, EngineError, both_sides, divide_and_conquer_counted, exterior, interior,
+    self, EngineError, Skeleton, both_sides, divide_and_conquer_counted, exterior, interior,
 };
 use medial::geom::Point;
 use medial::ops::{
     CenterlineOptions, Hierarchy, Measure, Outline, OutlinePiece, branches, centerlines,
     offset_margin, offsets, polygons_of, smoothed,
 };
-use medial_bench::measure::{Error, Work, report};
-use medial_bench::{shapes, text};
+use medial::raster::Grid;
+use medial_bench::measure::{Error, Work, peak_bytes, report};
+use medial_bench::{bitmap, shapes, text};
 
 fn main() -> Result<(), Error> {
     let args: Vec<String> = env::args().skip(1).collect();
@@ -38,8 +40,11 @@ fn main() -> Result<(), Error> {
         ["offsets", distances] => parallel_curves(distances),
         ["axis", shape, edges] => axis(shape, edges.parse()?),
         ["work", shape, edges] => work(shape, edges.parse()?),
+        ["raster", file] => raster(file),
+        ["skeleton", file, target] => skeleton(file, target, engine::Options::default().residual),
+        ["skeleton", file, target, "none"] => skeleton(file, target, None),
         _ => {
-            Err("medial-bench draw, axis or work SHAPE EDGES, time [ENGINE], both ENGINE, operation NAME or offsets D,D".into())
+            Err("medial-bench draw, axis or work SHAPE EDGES, time [ENGINE], both ENGINE, operation NAME or offsets D,D, raster FILE.pbm or skeleton FILE.pbm TARGET.pbm [none]".into())
         }
     }
 }
@@ -115,6 +120,54 @@ fn medial_bench_operation(name: &str, domain: &Domain, axis: &MedialAxis) -> Res
         "centerline" => centerlines(domain, axis, &CenterlineOptions::default())?.len(),
         _ => return Err(format!("no operation {name}").into()),
     })
+}
+
+/// Times the raster transform of a bitmap, and prints, as JSON, nanoseconds a pixel of the cells and of their
+/// axis, how many there are, and by how many bytes a pixel the memory grew.
+fn raster(file: &str) -> Result<(), Error> {
+    let mask = bitmap::read(file)?;
+    let pixels = mask.grid().n_cells() as f64;
+    let options = engine::Options::default();
+    let before = peak_bytes();
+    let (mut cells, mut axes, mut found) = (Vec::new(), Vec::new(), (0, 0));
+    let start = ThreadTime::now();
+    let mut grown = 0.0;
+    while cells.is_empty() || (start.elapsed().as_secs_f64() < 0.5 && cells.len() < 101) {
+        let start = ThreadTime::now();
+        let skeleton = hint::black_box(Skeleton::new(&mask, &options)?);
+        cells.push(start.elapsed().as_nanos() as f64 / pixels);
+        let start = ThreadTime::now();
+        let axis = hint::black_box(skeleton.axis()?);
+        axes.push(start.elapsed().as_nanos() as f64 / pixels);
+        found = (skeleton.cells().count(), axis.keypoints().len());
+        if cells.len() == 1 {
+            grown = peak_bytes().saturating_sub(before) as f64 / pixels;
+        }
+    }
+    let median = |times: &mut Vec<f64>| {
+        times.sort_by(f64::total_cmp);
+        times[times.len() / 2]
+    };
+    let [cells, axes] = [median(&mut cells), median(&mut axes)];
+    let (n_cells, n_keypoints) = found;
+    println!(
+        "{{\"cells_ns\": {cells:.2}, \"axis_ns\": {axes:.2}, \"cells\": {n_cells}, \
+         \"keypoints\": {n_keypoints}, \"bytes\": {grown:.1}}}"
+    );
+    Ok(())
+}
+
+/// Writes the medial cells of a bitmap as another one.
+fn skeleton(file: &str, target: &str, residual: Option<f64>) -> Result<(), Error> {
+    let mask = bitmap::read(file)?;
+    let options = engine::Options { residual, ..engine::Options::default() };
+    let skeleton = Skeleton::new(&mask, &options)?;
+    let Grid { columns, rows, .. } = *mask.grid();
+    let mut bytes = format!("P4\n{columns} {rows}\n").into_bytes();
+    for y in 0..rows {
+        bytes.extend(skeleton.cells().row(y).iter().map(|byte| byte.reverse_bits()));
+    }
+    Ok(std::fs::write(target, bytes)?)
 }
 
 /// Prints the areas of parallel curves.

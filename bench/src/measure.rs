@@ -81,7 +81,7 @@ pub fn report<'a, T, I, A, B>(
             let last = middle.iter_mut().map(&work.second).collect::<Result<Vec<B>, _>>()?;
             second += start.elapsed();
             if let Some(before) = before {
-                growth = growth.max(peak().saturating_sub(before));
+                growth = growth.max(peak_bytes().saturating_sub(before));
             }
             found += middle.iter().zip(&last).map(|(a, b)| (work.count)(a, b)).sum::<usize>();
             hint::black_box(last);
@@ -108,11 +108,11 @@ fn median(times: &mut [Duration]) -> Duration {
 fn reset_peak() -> u64 {
     // Where the system does not let us, the peak stays, and no growth is seen.
     let _ = fs::write("/proc/self/clear_refs", "5");
-    peak()
+    peak_bytes()
 }
 
 /// The peak of the resident memory in bytes; 0 where the system does not tell.
-fn peak() -> u64 {
+pub fn peak_bytes() -> u64 {
     let status = fs::read_to_string("/proc/self/status").unwrap_or_default();
     let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));
     let kib = line.and_then(|line| line.trim().strip_suffix(" kB")?.trim().parse::<u64>().ok());

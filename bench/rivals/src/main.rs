@@ -9,7 +9,8 @@
 //! - `spade-cdt`: the Delaunay triangulation constrained to the edges. Found: triangles.
 //!
 //! `rivals i_overlay D,D` prints, as JSON, the areas of the outlines of `i_overlay` at these distances, inward
-//! if positive, and the seconds that took without reading.
+//! if positive, and the seconds that took without reading. `rivals raster FILE.pbm` thins a bitmap with
+//! `skeletonize`.
 
 use std::env;
 
@@ -17,15 +18,23 @@ use boostvoronoi::prelude::{Builder, Diagram, Line};
 use cpu_time::ThreadTime;
 use i_overlay::mesh::outline::offset::OutlineOffset as _;
 use i_overlay::mesh::style::{LineJoin, OutlineStyle};
+use image::{DynamicImage, GrayImage};
 use medial::geom::Point;
+use medial::raster::Grid;
+use medial_bench::bitmap;
 use medial_bench::measure::{Error, Work, report};
 use medial_bench::text::{self, Polygons};
+use skeletonize::foreground::White;
+use skeletonize::{MarkingMethod, thin_image_edges};
 use spade::{ConstrainedDelaunayTriangulation, DelaunayTriangulation, Point2, Triangulation as _};
 
 /// The colour of Voronoi edges outside.
 const OUTSIDE: u32 = 1;
 
 fn main() -> Result<(), Error> {
+    if let (Some("raster"), Some(file)) = (env::args().nth(1).as_deref(), env::args().nth(2)) {
+        return skeletonize(&file);
+    }
     let features = text::read()?;
     match env::args().nth(1).as_deref() {
         Some("boostvoronoi") => boostvoronoi(&features),
@@ -41,6 +50,26 @@ fn main() -> Result<(), Error> {
         }
         _ => Err("rivals boostvoronoi, delaunator, spade, spade-cdt or i_overlay D,D".into()),
     }
+}
+
+/// Thins a bitmap after Zhang and Suen, and prints the nanoseconds a pixel as JSON.
+fn skeletonize(file: &str) -> Result<(), Error> {
+    let mask = bitmap::read(file)?;
+    let Grid { columns, rows, .. } = *mask.grid();
+    let pixel = |x, y| image::Luma([if mask.get(x, y) { 255_u8 } else { 0 }]);
+    let image = DynamicImage::ImageLuma8(GrayImage::from_fn(columns, rows, pixel));
+    let mut times = Vec::new();
+    let begun = ThreadTime::now();
+    while times.is_empty() || begun.elapsed().as_secs_f64() < 0.5 {
+        let mut image = image.clone();
+        let start = ThreadTime::now();
+        thin_image_edges::<White>(&mut image, MarkingMethod::Standard, None)
+            .map_err(|error| format!("{error:?}"))?;
+        times.push(start.elapsed().as_nanos() as f64 / mask.grid().n_cells() as f64);
+    }
+    times.sort_by(f64::total_cmp);
+    println!("{{\"ns\": {}}}", times[times.len() / 2]);
+    Ok(())
 }
 
 /// The least angle of a piece of an arc that it takes, as a share of the radius.

@@ -3,9 +3,13 @@
 //! Its JSON Schema is `schema/axis.schema.json` of this crate, also in [`SCHEMA`].
 
 use crate::json::parse;
+use crate::path::{PathRecord, records, shown_keypoints};
 use crate::text::{lines, offset, syntax_at};
-use crate::{Content, Error, Feature, FeatureError, Format, Json, Layer, maxis};
-use medial::axis::{Accuracy, CurveKind, Engine, MedialAxis, Path, Side, Site};
+use crate::{Content, Drawing, Error, Feature, FeatureError, Format, Json, Layer, maxis};
+
+use medial::axis::{
+    Accuracy, CurveKind, Engine, Joining, KeypointKind, MedialAxis, Path, Side, Site,
+};
 use medial::axis::{SiteKind, UnknownName};
 use medial::geom::Point;
 use medial::ops::{Significance, polygons_of};
@@ -50,7 +54,7 @@ struct Document<'a> {
     #[serde(borrow)]
     keypoints: Vec<KeypointRecord<'a>>,
     #[serde(borrow)]
-    paths: Vec<PathRecord<'a>>,
+    paths: Vec<PathJson<'a>>,
 }
 
 #[derive(Serialize, Deserialize)]
@@ -88,12 +92,15 @@ struct KeypointRecord<'a> {
 }
 
 #[derive(Serialize, Deserialize)]
-struct PathRecord<'a> {
+struct PathJson<'a> {
     from: u32,
     to: u32,
     governors: [u32; 2],
     #[serde(borrow)]
     curve: Cow<'a, str>,
+    /// Samples of a polyline, ends included: x, y, radius.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    points: Vec<[f64; 3]>,
     /// For each measure the largest value, that at the start and that at the end.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty", skip_deserializing)]
     measures: BTreeMap<&'static str, [Option<f64>; 3]>,
@@ -107,6 +114,12 @@ fn is_zero(part: &u32) -> bool {
 /// The document of one axis, with the values that were measured and its line end.
 #[must_use]
 pub fn write(source: &Feature, axis: &MedialAxis, measured: &[Significance]) -> String {
+    // Samples are points of their path, not keypoints.
+    let drawing = Drawing { by: Some(Joining::Governors), ..Drawing::default() };
+    let shown = shown_keypoints(axis, drawing);
+    let mut number = vec![0; axis.keypoints().len()];
+    (0..).zip(&shown).for_each(|(new, &old)| number[old as usize] = new);
+    let lines: Vec<PathRecord> = records(axis, drawing).collect();
     let document = Document {
         kind: "MedialAxis".into(),
         version: 1,
@@ -120,36 +133,55 @@ pub fn write(source: &Feature, axis: &MedialAxis, measured: &[Significance]) -> 
         feature: source.index,
         id: source.id.as_deref(),
         sites: axis.sites().iter().map(|site| site_record(&site)).collect(),
-        keypoints: (0u32..)
-            .zip(axis.keypoints())
-            .map(|(k, keypoint)| KeypointRecord {
-                x: keypoint.position.x,
-                y: keypoint.position.y,
-                radius: keypoint.radius,
-                kind: keypoint.kind.name().into(),
-                governors: axis.governors(k).into(),
-            })
-            .collect(),
-        paths: axis
-            .paths()
-            .iter()
-            .enumerate()
-            .map(|(k, path)| PathRecord {
-                from: path.from,
-                to: path.to,
-                governors: [path.left, path.right],
-                curve: axis.curve_kind(&path).name().into(),
-                measures: measured
-                    .iter()
-                    .map(|m| (m.measure.name(), m.paths[k].values()))
-                    .collect(),
-            })
-            .collect(),
+        keypoints: shown.iter().map(|&k| keypoint_record(axis, k)).collect(),
+        paths: lines.iter().map(|line| path_record(axis, line, &number, measured)).collect(),
     };
     // Maps with string keys and finite numbers always have a JSON form.
     let mut line = serde_json::to_string(&document).unwrap_or_default();
     line.push('\n');
     line
+}
+
+fn keypoint_record(axis: &MedialAxis, number: u32) -> KeypointRecord<'_> {
+    let keypoint = axis.keypoints().at(number);
+    KeypointRecord {
+        x: keypoint.position.x,
+        y: keypoint.position.y,
+        radius: keypoint.radius,
+        kind: keypoint.kind.name().into(),
+        governors: axis.governors(number).into(),
+    }
+}
+
+/// A line between keypoints that have new numbers.
+fn path_record(
+    axis: &MedialAxis,
+    line: &PathRecord,
+    number: &[u32],
+    measured: &[Significance],
+) -> PathJson<'static> {
+    let Path { from, to, left, right } = line.path;
+    let points = match axis.accuracy {
+        Accuracy::Exact => Vec::new(),
+        Accuracy::Sampled(_) => {
+            let first = (line.ends[0].position, line.ends[0].radius);
+            let rest = line.curves.iter().map(|curve| (curve.to(), curve.radius_to()));
+            [first].into_iter().chain(rest).map(|(p, radius)| [p.x, p.y, radius]).collect()
+        }
+    };
+    PathJson {
+        from: number[from as usize],
+        to: number[to as usize],
+        governors: [left, right],
+        curve: match axis.accuracy {
+            Accuracy::Exact => line.kind,
+            Accuracy::Sampled(_) => CurveKind::Polyline,
+        }
+        .name()
+        .into(),
+        points,
+        measures: measured.iter().map(|m| (m.measure.name(), line.values(m))).collect(),
+    }
 }
 
 /// A site as JSON documents have it.
@@ -255,11 +287,32 @@ fn read_line(text: &str, line: &str) -> Result<AxisDocument, Error> {
         .iter()
         .zip(kinds)
         .map(|(k, kind)| (Point::new(k.x, k.y), k.radius, kind, k.governors.as_ref()));
-    let paths: Vec<Path> = document
+    // Samples are keypoints behind all others.
+    let both: Vec<[u32; 2]> = document
         .paths
         .iter()
-        .map(|p| Path { from: p.from, to: p.to, left: p.governors[0], right: p.governors[1] })
+        .map(|p| [p.governors[0].min(p.governors[1]), p.governors[0].max(p.governors[1])])
         .collect();
+    let between = |p: &'_ PathJson<'_>| 1..p.points.len().saturating_sub(1).max(1);
+    let samples = document.paths.iter().zip(&both).flat_map(|(p, both)| {
+        between(p).map(move |k| {
+            let [x, y, radius] = p.points[k];
+            (Point::new(x, y), radius, KeypointKind::Transition, &both[..])
+        })
+    });
+    let mut next = document.keypoints.len() as u32;
+    let mut paths: Vec<Path> = Vec::with_capacity(document.paths.len());
+    for p in &document.paths {
+        let [left, right] = p.governors;
+        let mut from = p.from;
+        for _ in between(p) {
+            paths.push(Path { from, to: next, left, right });
+            from = next;
+            next += 1;
+        }
+        paths.push(Path { from, to: p.to, left, right });
+    }
+    let keypoints = keypoints.chain(samples);
     let axis = MedialAxis::from_parts(
         named::<Engine>(&document.engine).map_err(|why| wrong("engine".into(), why))?,
         named::<Side>(&document.side).map_err(|why| wrong("side".into(), why))?,

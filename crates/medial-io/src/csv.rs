@@ -3,7 +3,7 @@
 
 use crate::number::push_shortest;
 use crate::path::{PathRecord, measure_columns, records};
-use crate::wkt::{drawn_line, line_string};
+use crate::wkt::drawn_line;
 use crate::{Drawing, Feature};
 use medial::axis::{Engine, MedialAxis};
 use medial::geom::Point;
@@ -40,30 +40,35 @@ pub fn rows(
     let tolerance = drawing.tolerance(axis);
     let id = id_of(source);
     let mut table = Table::new();
-    for (k, record) in records(axis).enumerate() {
-        let PathRecord { path, curve, ends } = record;
-        table.field(|out| line_string(out, &curve, drawing, tolerance));
+    for (k, record) in records(axis, drawing).enumerate() {
+        let (path, [first, last]) = (record.path, record.ends);
+        let line = record.points(drawing, tolerance);
+        table.field(|out| drawn_line(out, &line, drawing.radius_as_z));
         table.whole(source.index);
         table.field(|out| out.push_str(&id));
         table.whole(k);
         table.whole(path.from);
         table.whole(path.to);
-        let (from, to) = (curve.from(), curve.to());
+        let (from, to) = (first.position, last.position);
         [from.x, from.y, to.x, to.y].into_iter().for_each(|value| table.number(value));
         table.field(|out| out.push_str(axis.engine.name()));
         if drawing.side {
             table.field(|out| out.push_str(axis.side.name()));
         }
-        table.field(|out| out.push_str(curve.kind().name()));
-        table.number(curve.length());
-        table.number(curve.radius_min());
-        table.number(curve.radius_max());
-        table.number(curve.radius_from());
-        table.number(curve.radius_to());
-        ends.into_iter().for_each(|end| table.field(|out| out.push_str(end.kind.name())));
-        table.whole(path.left);
-        table.whole(path.right);
-        for value in measured.iter().flat_map(|measured| measured.paths[k].values()) {
+        table.field(|out| out.push_str(record.kind.name()));
+        table.number(record.length());
+        table.number(record.radius_min());
+        table.number(record.radius_max());
+        table.number(first.radius);
+        table.number(last.radius);
+        [first, last].into_iter().for_each(|end| table.field(|out| out.push_str(end.kind.name())));
+        for site in record.governors() {
+            match site {
+                Some(site) => table.whole(site),
+                None => table.field(|_| ()),
+            }
+        }
+        for value in measured.iter().flat_map(|measured| record.values(measured)) {
             table.field(|out| value.into_iter().for_each(|value| push_shortest(out, value)));
         }
         table.end_row();

@@ -1,7 +1,9 @@
 use crate::{Crs, Error, FeatureError};
 use medial::domain::{Curves, FillRule};
 use medial::geom::Point;
+use medial::raster::Mask;
 use serde_json::value::RawValue;
+use std::sync::Arc;
 
 /// A piece of JSON exactly as it was written, so that large numbers and the order of members
 /// survive.
@@ -29,6 +31,8 @@ pub struct Feature {
     pub fill: FillRule,
     /// The curves that its edges were flattened from, if there were any.
     pub curves: Option<Curves>,
+    /// The mask whose outline the polygons are, if it was an image.
+    pub mask: Option<Arc<Mask>>,
     /// What was left out or reinterpreted on the way.
     pub notes: Vec<Note>,
 }

@@ -26,6 +26,8 @@ pub enum Format {
     Svg,
     /// A raster picture.
     Png,
+    /// A raster image, with or without a place in the world.
+    Tiff,
     /// Bare JSON arrays `[[ring], [hole], …]`.
     Rings,
     /// The compressed axis.
@@ -56,6 +58,7 @@ const NAMES: &[(Format, &str, &[&str])] = &[
     (Format::Csv, "csv", &["csv"]),
     (Format::Svg, "svg", &["svg"]),
     (Format::Png, "png", &["png"]),
+    (Format::Tiff, "tiff", &["tiff", "tif"]),
     (Format::Rings, "rings", &["rings"]),
     (Format::Maxis, "maxis", &["maxis"]),
     (Format::GCode, "gcode", &["gcode", "nc", "ngc", "tap"]),
@@ -132,6 +135,9 @@ impl Format {
         if let Some(format) = of_table(bytes) {
             return Ok(Content::Polygons(format));
         }
+        if let Some(format) = of_image(bytes) {
+            return Ok(Content::Polygons(format));
+        }
         if font::begins(bytes) {
             return Ok(Content::Polygons(Self::Ttf));
         }
@@ -177,6 +183,18 @@ fn of_table(bytes: &[u8]) -> Option<Format> {
         (Format::Shp, &[0, 0, 0x27, 0x0a, 0, 0, 0, 0]),
         (Format::Fgb, b"fgb\x03fgb"),
         (Format::Parquet, b"PAR1"),
+    ];
+    starts.iter().find(|(_, start)| bytes.starts_with(start)).map(|(format, _)| *format)
+}
+
+/// The format of an image that begins so.
+fn of_image(bytes: &[u8]) -> Option<Format> {
+    let starts: [(Format, &[u8]); 5] = [
+        (Format::Png, b"\x89PNG"),
+        (Format::Tiff, b"II*\0"),
+        (Format::Tiff, b"MM\0*"),
+        (Format::Tiff, b"II+\0"),
+        (Format::Tiff, b"MM\0+"),
     ];
     starts.iter().find(|(_, start)| bytes.starts_with(start)).map(|(format, _)| *format)
 }

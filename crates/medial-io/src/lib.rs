@@ -48,6 +48,7 @@ pub mod font;
 pub mod gcode;
 pub mod geojson;
 pub mod gpkg;
+pub mod image;
 pub mod limb_document;
 pub mod location_document;
 pub mod maxis;
@@ -95,6 +96,7 @@ pub fn read_with<'a>(
         Format::Svg => svg::read(text(bytes)?, options),
         Format::Dxf => dxf::read(bytes, options),
         Format::Ttf => font::read(bytes, options),
+        Format::Png | Format::Tiff => image::read(format, bytes, options),
         Format::GeoJson => geojson::read(text(bytes)?),
         Format::GeoJsonLines | Format::GeoJsonSeq => Ok(geojson::read_lines(text(bytes)?)),
         Format::Wkt => Ok(wkt::read(text(bytes)?)),

@@ -10,6 +10,11 @@ pub struct ReadOptions {
     pub layer: Option<String>,
     /// The text to read in glyphs of a font.
     pub text: Option<String>,
+    /// Cells of an image whose value is above it belong to the shape; by default the middle between the
+    /// least and the greatest value.
+    pub threshold: Option<f64>,
+    /// Whether those that are not above it are the shape instead.
+    pub invert: bool,
     /// Fonts for the text of drawings.
     pub fonts: Fonts,
 }

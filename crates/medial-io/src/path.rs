@@ -1,7 +1,8 @@
-use medial::axis::{Curve, CurveKind, Keypoint, MedialAxis, Path};
+use medial::axis::{Accuracy, Curve, CurveKind, Joining, Keypoint, MedialAxis, Path, Polyline};
 use medial::domain::Domain;
 use medial::geom::Point;
 use medial::ops::{Measure, Significance};
+use smallvec::{SmallVec, smallvec};
 
 /// How axes become lines.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -14,6 +15,8 @@ pub struct Drawing {
     pub keypoints: bool,
     /// Whether the side of the boundary is written (GeoJSON and CSV).
     pub side: bool,
+    /// What makes one line; by default paths of an exact axis, and branches of a sampled one.
+    pub by: Option<Joining>,
 }
 
 /// Tolerance of drawn curves, as a share of the longer side of the box around the feature.
@@ -46,6 +49,15 @@ impl Drawing {
         self.tolerance.unwrap_or_else(|| default_tolerance(axis))
     }
 
+    /// What makes one line of an axis.
+    pub(crate) fn joining(&self, axis: &MedialAxis) -> Joining {
+        let usual = match axis.accuracy {
+            Accuracy::Exact => Joining::Governors,
+            Accuracy::Sampled(_) => Joining::Branches,
+        };
+        self.by.unwrap_or(usual)
+    }
+
     /// Whether a curve is drawn by its two ends whatever the tolerance.
     pub(crate) fn is_straight(&self, curve: &Curve) -> bool {
         curve.kind() == CurveKind::Line && !self.radius_as_z
@@ -61,11 +73,17 @@ impl Drawing {
     }
 }
 
-/// What the formats say of a path.
+/// What the formats say of a path, or of paths that follow one another.
 pub(crate) struct PathRecord {
     pub path: Path,
-    pub curve: Curve,
+    pub curves: SmallVec<[Curve; 1]>,
+    /// The paths, and whether each is passed from its start.
+    pub paths: SmallVec<[(u32, bool); 1]>,
     pub ends: [Keypoint; 2],
+    /// What kind of curve it is.
+    pub kind: CurveKind,
+    /// Whether its governors are those of all of it.
+    pub is_governed: bool,
 }
 
 impl PathRecord {
@@ -82,6 +100,77 @@ impl PathRecord {
         "governor_left",
         "governor_right",
     ];
+
+    /// One path.
+    fn of(axis: &MedialAxis, number: u32, path: Path) -> Self {
+        let curve = axis.curve(&path);
+        Self {
+            path,
+            curves: smallvec![curve],
+            paths: smallvec![(number, true)],
+            ends: [path.from, path.to].map(|k| axis.keypoints().at(k)),
+            kind: curve.kind(),
+            is_governed: true,
+        }
+    }
+
+    /// Several.
+    fn joined(axis: &MedialAxis, line: Polyline) -> Self {
+        let Polyline { path, paths, is_governed, .. } = line;
+        let curve = |&(number, forwards): &(u32, bool)| {
+            let curve = axis.curve(&axis.paths().at(number));
+            if forwards { curve } else { curve.reversed() }
+        };
+        let curves: SmallVec<[Curve; 1]> = paths.iter().map(curve).collect();
+        let kind = match (&curves[..], axis.accuracy) {
+            ([curve], Accuracy::Exact) => curve.kind(),
+            _ => CurveKind::Polyline,
+        };
+        let ends = [path.from, path.to].map(|k| axis.keypoints().at(k));
+        Self { path, curves, paths: paths.into(), ends, kind, is_governed }
+    }
+
+    pub fn length(&self) -> f64 {
+        self.curves.iter().map(Curve::length).sum()
+    }
+
+    pub fn radius_min(&self) -> f64 {
+        self.curves.iter().map(Curve::radius_min).fold(f64::INFINITY, f64::min)
+    }
+
+    pub fn radius_max(&self) -> f64 {
+        self.curves.iter().map(Curve::radius_max).fold(0.0, f64::max)
+    }
+
+    /// The governors to the left and right, if they are those of all of it.
+    pub fn governors(&self) -> [Option<u32>; 2] {
+        [self.path.left, self.path.right].map(|site| self.is_governed.then_some(site))
+    }
+
+    /// The points of the line with their radii.
+    pub fn points(&self, drawing: Drawing, tolerance: f64) -> Vec<(Point, f64)> {
+        let mut points = Vec::new();
+        for curve in &self.curves {
+            let skip = usize::from(!points.is_empty());
+            points.extend(drawing.points(curve, tolerance).into_iter().skip(skip));
+        }
+        points
+    }
+
+    /// The largest value of a measure, that at the start and that at the end.
+    pub fn values(&self, measured: &Significance) -> [Option<f64>; 3] {
+        let at = |&(path, forwards): &(u32, bool)| {
+            let [most, start, end] = measured.paths[path as usize].values();
+            if forwards { [most, start, end] } else { [most, end, start] }
+        };
+        let [mut most, start, mut end] = self.paths.first().map_or([None; 3], at);
+        for [other, _, last] in self.paths.iter().skip(1).map(at) {
+            // Without a bound on one path there is none on all.
+            most = most.zip(other).map(|(a, b)| a.max(b));
+            end = last;
+        }
+        [most, start, end]
+    }
 }
 
 /// The columns of a measure: the largest value on a path, and those at its start and its end.
@@ -95,12 +184,33 @@ pub(crate) fn measure_columns(measured: &Significance) -> [String; 3] {
     ["", "_start", "_end"].map(|end| format!("{name}{end}"))
 }
 
-/// A record for every path, in their order.
-pub(crate) fn records(axis: &MedialAxis) -> impl Iterator<Item = PathRecord> {
-    let keypoints = axis.keypoints();
-    axis.paths().iter().map(move |path| PathRecord {
-        path,
-        curve: axis.curve(&path),
-        ends: [path.from, path.to].map(|k| keypoints.at(k)),
-    })
+/// A record for every line of an axis, in the order of paths.
+pub(crate) fn records(
+    axis: &MedialAxis,
+    drawing: Drawing,
+) -> Box<dyn Iterator<Item = PathRecord> + '_> {
+    match (drawing.joining(axis), axis.accuracy) {
+        (Joining::Governors, Accuracy::Exact) => Box::new(
+            (0..).zip(axis.paths()).map(|(number, path)| PathRecord::of(axis, number, path)),
+        ),
+        (joining, _) => {
+            let lines = axis.polylines(joining).into_iter();
+            Box::new(lines.map(|line| PathRecord::joined(axis, line)))
+        }
+    }
+}
+
+/// The keypoints that are written: all, or those where lines end.
+pub(crate) fn shown_keypoints(axis: &MedialAxis, drawing: Drawing) -> Vec<u32> {
+    let all = 0..axis.keypoints().len() as u32;
+    match (drawing.joining(axis), axis.accuracy) {
+        (Joining::Governors, Accuracy::Exact) => all.collect(),
+        (joining, _) => {
+            let mut hidden = vec![false; axis.keypoints().len()];
+            for line in axis.polylines(joining) {
+                line.between.iter().for_each(|&keypoint| hidden[keypoint as usize] = true);
+            }
+            all.filter(|&keypoint| !hidden[keypoint as usize]).collect()
+        }
+    }
 }

@@ -13,6 +13,7 @@ use clap::error::ErrorKind;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use medial::axis::{Engine, Side};
 use medial::domain::{self, FillRule};
+use medial::engine;
 use medial::geom::Point;
 use medial::ops::{Hierarchy, Measure, Pruned};
 use medial_io::svg::Extra;
@@ -121,9 +122,8 @@ pub struct AxisArgs {
     /// parquet, svg, png, dxf; by default that of the extension, on standard output geojson
     #[arg(long, value_name = "FORMAT")]
     pub to: Option<Format>,
-    /// Who computes the axis: path_tracing, divide_and_conquer
-    #[arg(long, value_name = "NAME", default_value = "path_tracing", value_parser = engine)]
-    pub engine: Engine,
+    #[command(flatten)]
+    pub engine: ChosenEngine,
     #[command(flatten)]
     pub region: Region,
     #[command(flatten)]
@@ -136,6 +136,10 @@ pub struct AxisArgs {
     /// default 1e-4 of the longer side of the feature's box
     #[arg(long, value_name = "T", value_parser = positive, allow_negative_numbers = true)]
     pub tolerance: Option<f64>,
+    /// What makes one line (all formats but json and pictures): a path between keypoints, or a branch between
+    /// ends and junctions; by default paths, branches on an axis from samples
+    #[arg(long, value_name = "WHAT")]
+    pub by: Option<Line>,
     /// Write keypoints too (geojson, geojsonl, wkt, wkb, dxf; pictures and axis documents have them)
     #[arg(long)]
     pub keypoints: bool,
@@ -152,6 +156,13 @@ pub struct AxisArgs {
     pub draw: Vec<Extra>,
     #[command(flatten)]
     pub common: Common,
+}
+
+/// What makes one line of an axis.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Line {
+    Path,
+    Branch,
 }
 
 /// Where results go.
@@ -189,9 +200,8 @@ pub struct BranchesArgs {
     pub input: PathBuf,
     #[command(flatten)]
     pub target: Target,
-    /// Who computes the axis: path_tracing, divide_and_conquer
-    #[arg(long, value_name = "NAME", default_value = "path_tracing", value_parser = engine)]
-    pub engine: Engine,
+    #[command(flatten)]
+    pub engine: ChosenEngine,
     #[command(flatten)]
     pub region: Region,
     #[command(flatten)]
@@ -600,9 +610,11 @@ pub struct Pruning {
     /// Remove what lies below this value of a measure, from the leaves inwards: excess,
     /// relative_excess, prominence, potential, chord, circularity, erosion, length, angle,
     /// half_chord, radius, scale
-    #[arg(long, value_name = "MEASURE=VALUE", value_parser = threshold,
-          conflicts_with = "max_error")]
-    pub prune: Option<(Measure, f64)>,
+    ///
+    /// Images are pruned by chord=2 cells if nothing else is said; `none` keeps what their disks need to be
+    /// the image again
+    #[arg(long, value_name = "MEASURE=VALUE", value_parser = prune, conflicts_with = "max_error")]
+    pub prune: Option<Prune>,
     /// Remove branches for as long as the boundary moves by less than this, in units of the input:
     /// short for --prune excess=V
     #[arg(long, value_name = "V", value_parser = not_negative, allow_negative_numbers = true)]
@@ -613,15 +625,21 @@ pub struct Pruning {
 }
 
 impl Pruning {
-    /// Whether anything of the axis of a feature may go.
-    pub fn removes(&self, feature: &Feature) -> bool {
-        self.threshold().is_some() || (feature.curves.is_some() && !self.keep_artefacts)
+    /// Whether anything may go of what an engine found for a feature.
+    pub fn removes(&self, feature: &Feature, engine: Engine) -> bool {
+        let curves = feature.curves.is_some() && engine.is_exact() && !self.keep_artefacts;
+        self.left_to(engine).is_some() || curves
     }
 
-    /// What is left of an axis, if anything may go.
-    pub fn rest(&self, feature: &Feature, hierarchy: &Hierarchy<'_>) -> Option<Pruned> {
-        match (&feature.curves, self.threshold()) {
-            (Some(curves), threshold) if !self.keep_artefacts => {
+    /// What is left of the axis of an engine, if anything may go.
+    pub fn rest(
+        &self,
+        feature: &Feature,
+        engine: Engine,
+        hierarchy: &Hierarchy<'_>,
+    ) -> Option<Pruned> {
+        match (&feature.curves, self.left_to(engine)) {
+            (Some(curves), threshold) if engine.is_exact() && !self.keep_artefacts => {
                 Some(hierarchy.without_artefacts(&feature.polygons, curves, threshold))
             }
             (_, threshold) => threshold.map(|(measure, value)| hierarchy.pruned(measure, value)),
@@ -630,8 +648,65 @@ impl Pruning {
 
     /// The measure and the value below which points are removed, if any are.
     pub fn threshold(&self) -> Option<(Measure, f64)> {
-        self.prune.or(self.max_error.map(|error| (Measure::Excess, error)))
+        match self.prune {
+            Some(Prune::Below(measure, value)) => Some((measure, value)),
+            Some(Prune::Nothing) => None,
+            None => self.max_error.map(|error| (Measure::Excess, error)),
+        }
     }
+
+    /// The same without what an engine sees to by itself.
+    fn left_to(&self, engine: Engine) -> Option<(Measure, f64)> {
+        self.threshold().filter(|&(measure, _)| engine.is_exact() || measure != Measure::Chord)
+    }
+
+    /// The chord residual, in cells of that size, that an engine on cells prunes by; the rest of pruning is
+    /// done by [`rest`](Self::rest).
+    pub fn residual(&self, cell: f64) -> Option<f64> {
+        match self.prune {
+            Some(Prune::Nothing) => None,
+            Some(Prune::Below(Measure::Chord, value)) => Some(value / cell),
+            _ => engine::Options::default().residual,
+        }
+    }
+}
+
+/// What `--prune` says.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Prune {
+    /// Remove nothing.
+    Nothing,
+    /// Remove what lies below a value of a measure.
+    Below(Measure, f64),
+}
+
+/// Who computes an axis, for commands that know sampled ones.
+#[derive(Debug, Args)]
+pub struct ChosenEngine {
+    /// Who computes the axis: path_tracing, divide_and_conquer, raster_transform; by default path_tracing
+    /// for polygons, raster_transform for images
+    #[arg(long, value_name = "NAME", value_parser = engine)]
+    pub engine: Option<Engine>,
+    /// The size of cells into which polygons are put by engines that sample, in units of the input; by
+    /// default a thousandth of the longer side of the feature's box
+    #[arg(long, value_name = "SIZE", value_parser = positive, allow_negative_numbers = true)]
+    pub cell: Option<f64>,
+}
+
+impl ChosenEngine {
+    /// The engine for a feature.
+    pub fn of(&self, feature: &Feature) -> Engine {
+        engine_for(feature, self.engine)
+    }
+}
+
+/// The engine that was asked for, else the usual one for polygons or images.
+pub fn engine_for(feature: &Feature, asked: Option<Engine>) -> Engine {
+    let usual = match feature.mask {
+        Some(_) => Engine::RasterTransform,
+        None => Engine::PathTracing,
+    };
+    asked.unwrap_or(usual)
 }
 
 /// Where axes are computed.
@@ -670,7 +745,7 @@ pub struct Flattening {
 #[derive(Debug, Args)]
 pub struct Common {
     /// Format of the polygons: geojson, geojsonl, wkt, wkb, rings, gpkg, shp, fgb, parquet, svg, dxf,
-    /// ttf; by default that of the extension, else told by the content
+    /// ttf, png, tiff; by default that of the extension, else told by the content
     #[arg(long, value_name = "FORMAT")]
     pub from: Option<Format>,
     /// Layer to read, of a GeoPackage or a drawing with several
@@ -682,6 +757,13 @@ pub struct Common {
     /// A font for the text of drawings (svg), to be given several times; by default those of the system
     #[arg(long, value_name = "FILE")]
     pub font: Vec<PathBuf>,
+    /// Cells of an image (png, tiff) whose value is above T belong to the shape; by default the middle
+    /// between its least and its greatest value
+    #[arg(long, value_name = "T", allow_negative_numbers = true)]
+    pub threshold: Option<f64>,
+    /// Take the cells of an image that are not above the threshold for the shape
+    #[arg(long)]
+    pub invert: bool,
     /// Take coordinates for degrees of longitude and latitude and measure in metres, by the cosine of
     /// the latitude in the middle of each feature; GeoJSON and tables have degrees again
     #[arg(long)]
@@ -847,7 +929,7 @@ fn one_line(text: &str) -> String {
 }
 
 fn engine(word: &str) -> Result<Engine, String> {
-    const LATER: [&str; 4] = ["delaunay_dual", "ridge_following", "brushfire", "raster_transform"];
+    const LATER: [&str; 3] = ["delaunay_dual", "ridge_following", "brushfire"];
     if LATER.contains(&word.replace('-', "_").as_str()) {
         return Err(format!("this build has no engine {word} yet; use path_tracing"));
     }
@@ -882,6 +964,13 @@ fn count(word: &str) -> Result<NonZeroUsize, String> {
 
 fn measure(word: &str) -> Result<Measure, String> {
     word.parse().map_err(|error: medial::axis::UnknownName| error.to_string())
+}
+
+fn prune(word: &str) -> Result<Prune, String> {
+    if word == "none" {
+        return Ok(Prune::Nothing);
+    }
+    threshold(word).map(|(measure, value)| Prune::Below(measure, value))
 }
 
 fn threshold(word: &str) -> Result<(Measure, f64), String> {

@@ -1,15 +1,16 @@
 use super::features::Run;
 use super::sink::{Sink, draw, encode, head, title};
-use crate::args::{AxisArgs, Height, Pruning, Region, Sides};
+use crate::args::{AxisArgs, ChosenEngine, Height, Line, Pruning, Region, Sides};
 use crate::failure::{Failure, Status};
 use crate::input::Documents;
 use crate::output::Output;
 use crate::report::Entry;
 use crate::timings::timed;
-use medial::axis::{Engine, MedialAxis, Side};
+use medial::axis::{Engine, Joining, MedialAxis, Side};
 use medial::domain::Domain;
-use medial::engine::{self, EngineError, both_sides, exterior, interior};
+use medial::engine::{self, EngineError, both_sides, exterior, interior, of_mask};
 use medial::ops::{Hierarchy, Significance};
+use medial::raster::default_cell;
 use medial_io::svg::Options;
 use medial_io::{Drawing, Feature, Format, csv};
 use std::io::IsTerminal as _;
@@ -49,6 +50,10 @@ fn run_on(args: &AxisArgs, documents: Documents) -> Result<Status, Failure> {
         radius_as_z: args.z == Some(Height::Radius),
         keypoints: args.keypoints,
         side: args.region.side != Sides::Interior,
+        by: args.by.map(|by| match by {
+            Line::Path => Joining::Governors,
+            Line::Branch => Joining::Branches,
+        }),
     };
     let input = run.open_with(&args.input, documents)?;
     let layer = timed(&mut run.stages.read, || input.layer())?;
@@ -84,9 +89,12 @@ fn run_on(args: &AxisArgs, documents: Documents) -> Result<Status, Failure> {
         |feature, domain, stages, bytes| {
             let options = stages.options(threads);
             // All that is asked of a feature, or nothing.
-            let axes =
-                timed(&mut stages.engine, || trace(args.engine, &args.region, domain, &options))?;
-            let axes: Vec<_> = if !args.pruning.removes(feature) && args.measures.is_empty() {
+            let axes = timed(&mut stages.engine, || {
+                traced(&args.engine, &args.region, &args.pruning, feature, domain, &options)
+            })?;
+            let axes: Vec<_> = if !args.pruning.removes(feature, args.engine.of(feature))
+                && args.measures.is_empty()
+            {
                 axes.into_iter().map(|axis| (axis, Vec::new())).collect()
             } else {
                 timed(&mut stages.operations, || {
@@ -132,7 +140,7 @@ fn measured(
 ) -> Result<(MedialAxis, Vec<Significance>), Entry> {
     let hierarchy = Hierarchy::new(domain, axis).map_err(|error| Entry::internal(&error))?;
     let measures = args.measures.iter();
-    Ok(match args.pruning.rest(feature, &hierarchy) {
+    Ok(match args.pruning.rest(feature, axis.engine, &hierarchy) {
         Some(pruned) => {
             let measured = measures.map(|&m| hierarchy.significance_of(m, &pruned)).collect();
             (pruned.axis, measured)
@@ -148,12 +156,41 @@ pub fn pruned(
     domain: &Domain,
     axis: MedialAxis,
 ) -> Result<MedialAxis, Entry> {
-    if !pruning.removes(feature) {
+    if !pruning.removes(feature, axis.engine) {
         return Ok(axis);
     }
     let hierarchy = Hierarchy::new(domain, &axis).map_err(|error| Entry::internal(&error))?;
-    let rest = pruning.rest(feature, &hierarchy).map(|pruned| pruned.axis);
+    let rest = pruning.rest(feature, axis.engine, &hierarchy).map(|pruned| pruned.axis);
     Ok(rest.unwrap_or_else(|| axis.clone()))
+}
+
+/// The axes of a feature by the engine that is chosen for it, which may be one on cells: those of the image it
+/// was, or of a size.
+pub fn traced(
+    chosen: &ChosenEngine,
+    region: &Region,
+    pruning: &Pruning,
+    feature: &Feature,
+    domain: &Domain,
+    options: &engine::Options<'_>,
+) -> Result<Vec<MedialAxis>, Entry> {
+    let engine = chosen.of(feature);
+    if engine.is_exact() {
+        return trace(engine, region, domain, options);
+    }
+    let cell = match (&feature.mask, chosen.cell) {
+        (Some(mask), None) => mask.grid().cell_size(),
+        (_, cell) => cell.unwrap_or_else(|| default_cell(domain)),
+    };
+    let residual = pruning.residual(cell);
+    let options = engine::Options { cell: Some(cell), residual, ..*options };
+    match &feature.mask {
+        Some(mask) if chosen.cell.is_none() && region.side == Sides::Interior => {
+            let axis = of_mask(mask, engine, &options);
+            axis.map(|axis| vec![axis]).map_err(|error| Entry::unfinished(&error))
+        }
+        _ => trace(engine, region, domain, &options),
+    }
 }
 
 /// The axes of a feature by an engine, one for each side that is asked for, or why it is refused.

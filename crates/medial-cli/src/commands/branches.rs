@@ -1,4 +1,4 @@
-use super::axis::{pruned, trace};
+use super::axis::{pruned, traced};
 use super::features::Run;
 use super::records::{LINES, Plan};
 use crate::args::{BranchesArgs, Cut};
@@ -70,21 +70,24 @@ pub fn run(args: &BranchesArgs) -> Result<Status, Failure> {
         thing: if args.limbs { "limbs" } else { "branches" },
         formats: LINES,
         columns: if args.limbs { LIMB_COLUMNS } else { COLUMNS },
-        engine: args.engine,
+        engine: args.engine.engine,
     };
     let input = run.open_with(&args.input, Documents::AsPolygons)?;
     plan.run(run, &input, |feature, domain, stages, options| {
         let tolerance = args.tolerance.unwrap_or_else(|| domain_tolerance(domain));
         if args.limbs {
-            let sides =
-                timed(&mut stages.engine, || trace(args.engine, &args.region, domain, options))?;
+            let sides = timed(&mut stages.engine, || {
+                traced(&args.engine, &args.region, &args.pruning, feature, domain, options)
+            })?;
             let limbs = timed(&mut stages.operations, || all_limbs(args, domain, &sides))?;
             return Ok((0_usize..)
                 .zip(&limbs)
                 .map(|(k, limb)| limb_record(k, limb, tolerance))
                 .collect());
         }
-        let axes = timed(&mut stages.engine, || trace(args.engine, &args.region, domain, options))?;
+        let axes = timed(&mut stages.engine, || {
+            traced(&args.engine, &args.region, &args.pruning, feature, domain, options)
+        })?;
         timed(&mut stages.operations, || {
             let mut records = Vec::new();
             for axis in axes {
@@ -284,7 +287,8 @@ fn each<R: Send>(
         at_once,
         |feature, domain, stages, bytes| {
             let options = stages.options(threads);
-            let sides = sides(args.engine, domain, stages, &options)?;
+            let engine = args.engine.engine.unwrap_or(Engine::PathTracing);
+            let sides = sides(engine, domain, stages, &options)?;
             let limbs = timed(&mut stages.operations, || all_limbs(args, domain, &sides))?;
             Ok(work(feature, (feature.index, limbs), bytes))
         },

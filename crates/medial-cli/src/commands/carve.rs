@@ -61,7 +61,7 @@ pub fn run(args: &CarveArgs) -> Result<Status, Failure> {
         thing: "tool paths",
         formats: FORMATS,
         columns: COLUMNS,
-        engine: args.engine,
+        engine: Some(args.engine),
     };
     let format = plan.format()?;
     let machine = machine(args, format)?;

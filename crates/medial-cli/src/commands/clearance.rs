@@ -73,7 +73,7 @@ fn plan_of_places(args: &ClearanceArgs) -> Result<Plan<'_>, Failure> {
         thing: if args.largest { "disks" } else { "necks" },
         formats: LINES,
         columns: COLUMNS,
-        engine: args.engine,
+        engine: Some(args.engine),
     };
     if plan.asked()? == Format::Svg {
         return Err(Failure::Usage("svg is the plot of --profile; see --to in --help".to_owned()));
@@ -161,7 +161,7 @@ fn profiles(args: &ClearanceArgs, mut run: Run<'_>) -> Result<Status, Failure> {
         thing: "profiles",
         formats: DRAWN_LINES,
         columns: STATION_COLUMNS,
-        engine: args.engine,
+        engine: Some(args.engine),
     };
     let input = run.open_with(&args.input, Documents::AsPolygons)?;
     let format = plan.format()?;

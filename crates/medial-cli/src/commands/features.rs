@@ -74,11 +74,13 @@ impl<'a> Run<'a> {
 
     /// Opens an input of polygons or axes.
     pub fn opened(&mut self, path: &Path) -> Result<Opened, Failure> {
-        let Common { from, layer, text, font, .. } = self.common;
+        let Common { from, layer, text, font, threshold, invert, .. } = self.common;
         let options = ReadOptions {
             tolerance: self.tolerance,
             layer: layer.clone(),
             text: text.clone(),
+            threshold: *threshold,
+            invert: *invert,
             ..ReadOptions::default()
         };
         timed(&mut self.stages.read, || Opened::new(path, *from, options, font))

@@ -39,7 +39,7 @@ pub fn run(args: &OffsetArgs) -> Result<Status, Failure> {
         thing: "offsets",
         formats: FORMATS,
         columns: COLUMNS,
-        engine: args.engine,
+        engine: Some(args.engine),
     };
     let format = plan.format()?;
     let input = run.open(&args.input)?;

@@ -36,7 +36,7 @@ pub fn run(args: &ReconstructArgs) -> Result<Status, Failure> {
         thing: "polygons",
         formats: POLYGONS,
         columns: COLUMNS,
-        engine: args.engine,
+        engine: Some(args.engine),
     };
     let input = match run.opened(&args.input)? {
         Opened::Axes(input) => return of_documents(args, &plan, &input),

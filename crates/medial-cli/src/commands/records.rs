@@ -3,7 +3,7 @@
 use super::axis::{format_of, needs_file};
 use super::features::Run;
 use super::sink::{Sink, head};
-use crate::args::Target;
+use crate::args::{Target, engine_for};
 use crate::failure::{Failure, Status};
 use crate::input::Polygons;
 use crate::report::Entry;
@@ -25,7 +25,7 @@ pub struct Plan<'a> {
     /// Formats of the output.
     pub formats: &'static [Format],
     pub columns: &'static [&'static str],
-    pub engine: Engine,
+    pub engine: Option<Engine>,
 }
 
 /// Formats of lines.
@@ -138,7 +138,8 @@ impl Plan<'_> {
                     Found::Part(part) => return Ok(Some(part)),
                 };
                 timed(&mut stages.write, || {
-                    record::write(bytes, format, feature, self.engine, self.columns, &records);
+                    let engine = engine_for(feature, self.engine);
+                    record::write(bytes, format, feature, engine, self.columns, &records);
                 });
                 Ok(None)
             },

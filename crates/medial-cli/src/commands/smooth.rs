@@ -25,7 +25,7 @@ pub fn run(args: &SmoothArgs) -> Result<Status, Failure> {
         thing: "polygons",
         formats: POLYGONS,
         columns: COLUMNS,
-        engine: args.engine,
+        engine: Some(args.engine),
     };
     let input = run.open_with(&args.input, Documents::AsPolygons)?;
     plan.run(run, &input, |_, domain, stages, options| {

@@ -26,7 +26,7 @@ pub fn run(args: &WallsArgs) -> Result<Status, Failure> {
         thing: "walls",
         formats: DRAWN_LINES,
         columns: COLUMNS,
-        engine: args.engine,
+        engine: Some(args.engine),
     };
     let format = plan.format()?;
     let usual = WallOptions::between(args.min, args.max);

@@ -464,6 +464,7 @@ impl Item {
                 fill: FillRule::EvenOdd,
                 curves,
                 notes: self.notes,
+                mask: None,
             }),
             Err(error) => Err(FeatureError { feature: index, id: self.id, error }),
         }

@@ -4,7 +4,9 @@
 //! Nothing is flattened: lines are LINE, parabolas SPLINE of degree 2, arcs bulges of LWPOLYLINE. With radii
 //! as heights paths are exact too, as rational splines.
 
+use crate::Drawing;
 use crate::number::push_shortest;
+use crate::path::{records, shown_keypoints};
 use crate::record::{Record, Shape};
 use medial::axis::{Curve, CurveKind, KeypointKind, MedialAxis};
 use medial::geom::Point;
@@ -12,8 +14,9 @@ use medial::ops::{Outline, Stroke};
 use std::fmt::Write as _;
 
 /// The layers of what is written, with their colours by number.
-const LAYERS: [(&str, u8); 11] = [
+const LAYERS: [(&str, u8); 12] = [
     ("axis_line", 5),
+    ("axis_polyline", 5),
     ("axis_parabola", 4),
     ("keypoint_end", 8),
     ("keypoint_transition", 3),
@@ -148,10 +151,18 @@ impl Entities {
 
     /// Adds the paths of an axis, and its keypoints if they are asked for; with radii as heights or flat.
     pub fn axis(&mut self, axis: &MedialAxis, keypoints: bool, radius_as_z: bool) {
-        for path in axis.paths().iter() {
-            self.curve(&axis.curve(&path), radius_as_z);
+        let drawing = Drawing { keypoints, radius_as_z, ..Drawing::default() };
+        for line in records(axis, drawing) {
+            match (&line.curves[..], radius_as_z) {
+                ([_, _, ..], false) => {
+                    let points = line.points(drawing, 0.0).into_iter().map(|(p, _)| (p, 0.0));
+                    self.polyline("axis_polyline", &points.collect::<Vec<_>>(), false);
+                }
+                (curves, _) => curves.iter().for_each(|curve| self.curve(curve, radius_as_z)),
+            }
         }
-        for k in (0..axis.keypoints().len() as u32).filter(|_| keypoints) {
+        let shown = if keypoints { shown_keypoints(axis, drawing) } else { Vec::new() };
+        for k in shown {
             let keypoint = axis.keypoints().at(k);
             let layer = match keypoint.kind {
                 KeypointKind::End => "keypoint_end",

@@ -1,6 +1,6 @@
 use crate::json::{compact, push_quoted};
 use crate::number::decimal;
-use crate::path::{PathRecord, measure_columns, records};
+use crate::path::{PathRecord, measure_columns, records, shown_keypoints};
 use crate::{Crs, Drawing, Feature};
 use medial::axis::{Engine, MedialAxis};
 use medial::geom::Point;
@@ -77,10 +77,10 @@ fn write(
     }
     let places = Places::new(axis, drawing);
     out.reserve(axis.paths().len() * (common.len() + PATH_BYTES));
-    for (k, record) in records(axis).enumerate() {
+    for record in records(axis, drawing) {
         out.extend_from_slice(&common);
         path_properties(out, &record, &places);
-        let values = measured.iter().flat_map(|measured| measured.paths[k].values());
+        let values = measured.iter().flat_map(|measured| record.values(measured));
         for (name, value) in columns.iter().zip(values) {
             out.extend_from_slice(b",\"");
             out.extend_from_slice(name.as_bytes());
@@ -93,8 +93,9 @@ fn write(
         out.extend_from_slice(b"},\"geometry\":{\"type\":\"LineString\",\"coordinates\":[");
         out.extend_from_slice(places.position(record.path.from));
         out.push(b',');
-        if !drawing.is_straight(&record.curve) {
-            let points = drawing.points(&record.curve, tolerance);
+        if !record.curves.iter().all(|curve| drawing.is_straight(curve)) || record.curves.len() > 1
+        {
+            let points = record.points(drawing, tolerance);
             for &(p, radius) in &points[1..points.len() - 1] {
                 position(out, p, drawing.radius_as_z.then_some(radius));
                 out.push(b',');
@@ -104,7 +105,9 @@ fn write(
         out.extend_from_slice(b"]}}");
         out.extend_from_slice(after);
     }
-    for (k, degree) in (0..).zip(degrees).filter(|(_, degree)| is_written(degree)) {
+    let shown = if degrees.is_empty() { Vec::new() } else { shown_keypoints(axis, drawing) };
+    let shown = shown.into_iter().map(|k| (k, degrees[k as usize]));
+    for (k, degree) in shown.filter(|(_, degree)| is_written(degree)) {
         let keypoint = axis.keypoints().at(k);
         out.extend_from_slice(&common);
         let properties = format!(
@@ -124,12 +127,12 @@ fn write(
 
 /// The properties of a path behind its beginning.
 fn path_properties(out: &mut Vec<u8>, record: &PathRecord, places: &Places) {
-    let PathRecord { path, curve, ends: [from, to] } = record;
+    let PathRecord { path, ends: [from, to], .. } = record;
     let radii = [places.radius(path.from), places.radius(path.to)];
     out.extend_from_slice(b"\"curve\":\"");
-    out.extend_from_slice(curve.kind().name().as_bytes());
+    out.extend_from_slice(record.kind.name().as_bytes());
     out.extend_from_slice(b"\",\"length\":");
-    number(out, curve.length());
+    number(out, record.length());
     let extreme = |out: &mut Vec<u8>, radius: f64| {
         // Mostly that of an end.
         match [from, to].iter().position(|k| k.radius.to_bits() == radius.to_bits()) {
@@ -138,9 +141,9 @@ fn path_properties(out: &mut Vec<u8>, record: &PathRecord, places: &Places) {
         }
     };
     out.extend_from_slice(b",\"radius_min\":");
-    extreme(out, curve.radius_min());
+    extreme(out, record.radius_min());
     out.extend_from_slice(b",\"radius_max\":");
-    extreme(out, curve.radius_max());
+    extreme(out, record.radius_max());
     out.extend_from_slice(b",\"radius_start\":");
     out.extend_from_slice(radii[0]);
     out.extend_from_slice(b",\"radius_end\":");
@@ -149,11 +152,15 @@ fn path_properties(out: &mut Vec<u8>, record: &PathRecord, places: &Places) {
     out.extend_from_slice(from.kind.name().as_bytes());
     out.extend_from_slice(b"\",\"kind_end\":\"");
     out.extend_from_slice(to.kind.name().as_bytes());
+    out.push(b'"');
     let mut digits = itoa::Buffer::new();
-    out.extend_from_slice(b"\",\"governor_left\":");
-    out.extend_from_slice(digits.format(path.left).as_bytes());
-    out.extend_from_slice(b",\"governor_right\":");
-    out.extend_from_slice(digits.format(path.right).as_bytes());
+    for (name, site) in ["left", "right"].into_iter().zip(record.governors()) {
+        out.extend_from_slice(b",\"governor_");
+        out.extend_from_slice(name.as_bytes());
+        out.extend_from_slice(b"\":");
+        let site = site.map_or("null", |site| digits.format(site));
+        out.extend_from_slice(site.as_bytes());
+    }
 }
 
 /// Radii and positions of the keypoints as they are written, each several times.

@@ -1,6 +1,6 @@
 use super::polygons::write_polygons;
 use crate::Drawing;
-use crate::path::records;
+use crate::path::{records, shown_keypoints};
 use crate::record::Shape;
 use medial::axis::MedialAxis;
 use medial::geom::Point;
@@ -26,9 +26,10 @@ pub fn write(axis: &MedialAxis, drawing: Drawing) -> Vec<u8> {
         count(&mut out, 2);
     }
     head(&mut out, MULTI_LINE + z);
-    count(&mut out, axis.paths().len());
-    for record in records(axis) {
-        let points = drawing.points(&record.curve, tolerance);
+    let lines: Vec<_> = records(axis, drawing).collect();
+    count(&mut out, lines.len());
+    for record in lines {
+        let points = record.points(drawing, tolerance);
         head(&mut out, LINE + z);
         count(&mut out, points.len());
         for (p, radius) in points {
@@ -37,8 +38,10 @@ pub fn write(axis: &MedialAxis, drawing: Drawing) -> Vec<u8> {
     }
     if drawing.keypoints {
         head(&mut out, MULTI_POINT + z);
-        count(&mut out, axis.keypoints().len());
-        for keypoint in axis.keypoints() {
+        let shown = shown_keypoints(axis, drawing);
+        count(&mut out, shown.len());
+        for keypoint in shown {
+            let keypoint = axis.keypoints().at(keypoint);
             head(&mut out, POINT + z);
             point(&mut out, keypoint.position, drawing.radius_as_z.then_some(keypoint.radius));
         }

@@ -5,7 +5,7 @@ mod read;
 mod scanner;
 mod write;
 
-pub(crate) use write::{drawn_line, line_string};
+pub(crate) use write::drawn_line;
 
 pub use read::read;
 pub(crate) use write::shape;

@@ -1,8 +1,8 @@
 use crate::Drawing;
 use crate::number::push_shortest;
-use crate::path::records;
+use crate::path::{records, shown_keypoints};
 use crate::record::Shape;
-use medial::axis::{Curve, MedialAxis};
+use medial::axis::MedialAxis;
 use medial::geom::Point;
 
 /// The axis as one MULTILINESTRING, a line per path, with its line end.
@@ -17,10 +17,13 @@ pub fn write(axis: &MedialAxis, drawing: Drawing) -> String {
         out.extend(["GEOMETRYCOLLECTION ", z, "("]);
     }
     out.extend(["MULTILINESTRING ", z]);
-    group(&mut out, records(axis), |out, record| line(out, &record.curve, drawing, tolerance));
+    group(&mut out, records(axis, drawing), |out, record| {
+        points(out, &record.points(drawing, tolerance), drawing.radius_as_z);
+    });
     if drawing.keypoints {
         out.extend([", MULTIPOINT ", z]);
-        group(&mut out, axis.keypoints(), |out, keypoint| {
+        group(&mut out, shown_keypoints(axis, drawing), |out, keypoint| {
+            let keypoint = axis.keypoints().at(keypoint);
             out.push('(');
             point(out, keypoint.position, drawing.radius_as_z.then_some(keypoint.radius));
             out.push(')');
@@ -85,18 +88,6 @@ fn points(out: &mut String, line: &[(Point, f64)], radius_as_z: bool) {
 
 /// About as many bytes as a line takes.
 const LINE_BYTES: usize = 100;
-
-/// One curve as LINESTRING.
-pub(crate) fn line_string(out: &mut String, curve: &Curve, drawing: Drawing, tolerance: f64) {
-    out.push_str(if drawing.radius_as_z { "LINESTRING Z " } else { "LINESTRING " });
-    line(out, curve, drawing, tolerance);
-}
-
-fn line(out: &mut String, curve: &Curve, drawing: Drawing, tolerance: f64) {
-    group(out, drawing.points(curve, tolerance), |out, (p, radius)| {
-        point(out, p, drawing.radius_as_z.then_some(radius));
-    });
-}
 
 fn point(out: &mut String, p: Point, radius: Option<f64>) {
     push_shortest(out, p.x);

@@ -12,7 +12,7 @@
 
 use super::hyperbolic::{asinh, hypot};
 use super::sites::SiteShape;
-use super::{CurveKind, Keypoint, MedialAxis, Path, Site, SiteKind};
+use super::{Accuracy, CurveKind, Keypoint, MedialAxis, Path, Site, SiteKind};
 use crate::geom::Point;
 
 /// Most pieces a curve is drawn with.
@@ -544,8 +544,27 @@ impl MedialAxis {
             let Keypoint { position, radius, .. } = self.keypoints().at(k);
             (position, radius)
         };
-        let (left, right) = (self.site_shape(path.left), self.site_shape(path.right));
-        Curve::between(&left, &right, end(path.from), end(path.to))
+        let sites = [path.left, path.right].map(|site| self.site_shape(site));
+        self.curve_between(&sites, [path.from, path.to].map(end))
+    }
+
+    /// The curve of a path with these sites and disks at its ends: straight between samples.
+    #[inline]
+    pub(crate) fn curve_between(
+        &self,
+        [left, right]: &[SiteShape; 2],
+        [from, to]: [(Point, f64); 2],
+    ) -> Curve {
+        match self.accuracy {
+            Accuracy::Exact => Curve::between(left, right, from, to),
+            Accuracy::Sampled(_) => Curve {
+                from: from.0,
+                to: to.0,
+                radius_from: from.1,
+                radius_to: to.1,
+                form: Form::Linear,
+            },
+        }
     }
 }
 

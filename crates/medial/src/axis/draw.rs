@@ -1,4 +1,4 @@
-use super::{MedialAxis, Path, Site, SiteKind};
+use super::{Accuracy, MedialAxis, Path, Site, SiteKind};
 use crate::geom::Point;
 
 /// Shape of the curve of a path.
@@ -9,6 +9,8 @@ pub enum CurveKind {
     Line,
     /// A piece of a parabola: between an edge and a corner.
     Parabola,
+    /// A line through samples.
+    Polyline,
 }
 
 impl Site {
@@ -84,12 +86,15 @@ impl MedialAxis {
         self.governors(keypoint).iter().map(move |&g| self.sites().at(g).footpoint(centre))
     }
 
-    /// The shape of a path's curve, told by its governors alone.
+    /// The shape of a path's curve, told by its governors alone where they are exact.
     ///
     /// # Panics
     /// If `path` names a site the axis does not have.
     #[must_use]
     pub fn curve_kind(&self, path: &Path) -> CurveKind {
+        if self.accuracy != Accuracy::Exact {
+            return CurveKind::Polyline;
+        }
         let [left, right] = self.path_governors(path);
         if left.kind == right.kind { CurveKind::Line } else { CurveKind::Parabola }
     }

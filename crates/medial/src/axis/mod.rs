@@ -7,6 +7,7 @@ mod keypoints;
 mod medial_axis;
 mod names;
 mod paths;
+mod polylines;
 mod sites;
 mod views;
 
@@ -22,5 +23,6 @@ pub use names::UnknownName;
 pub(crate) use names::names;
 pub(crate) use paths::PathTable;
 pub use paths::{Paths, PathsIter};
+pub use polylines::{Joining, Polyline};
 pub(crate) use sites::{SiteShape, SiteTable};
 pub use sites::{Sites, SitesIter};

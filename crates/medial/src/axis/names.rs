@@ -57,7 +57,7 @@ names!(
     RasterTransform => "raster_transform",
 );
 names!(Side, "side", Interior => "interior", Exterior => "exterior");
-names!(CurveKind, "curve", Line => "line", Parabola => "parabola");
+names!(CurveKind, "curve", Line => "line", Parabola => "parabola", Polyline => "polyline");
 names!(SiteKind, "kind of site", Edge => "edge", Vertex => "vertex");
 names!(
     KeypointKind, "kind of keypoint",

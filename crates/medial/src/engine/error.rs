@@ -40,6 +40,12 @@ pub enum EngineError {
         /// The engine that was asked.
         engine: Engine,
     },
+    /// The engine takes polygons only.
+    #[error("{engine} takes polygons, no mask; give it the outline of the mask")]
+    NoMask {
+        /// The engine that was asked.
+        engine: Engine,
+    },
     /// Another thread set the flag that cancels.
     #[error("cancelled")]
     Cancelled,

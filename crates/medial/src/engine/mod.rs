@@ -17,11 +17,9 @@ pub use divide_and_conquer::{
     divide_and_conquer, divide_and_conquer_counted, divide_and_conquer_with,
 };
 pub use error::EngineError;
-pub use exterior::{both_sides, exterior, exterior_frame, interior};
+pub use exterior::{both_sides, exterior, exterior_frame, interior, of_mask};
 pub use options::Options;
 pub use path_tracing::{
     Candidate, Step, Steps, path_tracing, path_tracing_steps, path_tracing_with,
 };
-pub use raster_transform::{
-    DEFAULT_RESIDUAL, Skeleton, raster_transform, raster_transform_of_domain,
-};
+pub use raster_transform::{Skeleton, raster_transform, raster_transform_of_domain};

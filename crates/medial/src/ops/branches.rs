@@ -284,7 +284,7 @@ impl<'a> Branches<'a> {
         let sites = [path.left, path.right].map(|site| axis.site_shape(site));
         let ends = [path.from, path.to].map(|keypoint| axis.keypoints().at(keypoint));
         let disks = ends.map(|end| (end.position, end.radius));
-        let curve = Curve::between(&sites[0], &sites[1], disks[0], disks[1]);
+        let curve = axis.curve_between(&sites, disks);
         for ((bank, site), number) in open.banks.iter_mut().zip(&sites).zip([path.left, path.right])
         {
             bank.pass(number, site, disks[0].0, disks[1].0);

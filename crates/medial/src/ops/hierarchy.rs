@@ -2,7 +2,8 @@
 //! above any threshold.
 //!
 //! # Contract
-//! Values belong to an exact axis of either side, complete but for what a frame cuts off outside, and grow
+//! Values belong to an exact axis of either side, complete but for what a frame cuts off outside, or, within
+//! what its samples allow, to a sampled one, and grow
 //! along each path in the direction in which it burns. Points whose value lies below a threshold are
 //! removed, from the leaves inwards: the running maximum counts [SB98], so components and cycles stay, and
 //! of a component that is removed the root stays as a single tip. Cuts lie at the parameter where the
@@ -42,7 +43,7 @@ use crate::geom::{BoundsTree, Point, Rect, Visitor};
 #[non_exhaustive]
 pub enum HierarchyError {
     /// Values need every path, exactly.
-    #[error("the axis is pruned or sampled; significance needs a complete exact axis")]
+    #[error("the axis is pruned; significance needs a complete axis")]
     Incomplete,
     /// The axis is of another domain.
     #[error("the axis names {name}, which the domain does not have")]
@@ -425,7 +426,9 @@ pub(super) fn grounded<'a>(
     // Where a frame cuts paths nothing burns, so what does has all of its leaves.
     let is_cut = axis.side == Side::Exterior
         && axis.keypoints().iter().all(|keypoint| keypoint.kind != KeypointKind::Tip);
-    if !(axis.complete || is_cut) || axis.accuracy != Accuracy::Exact {
+    // A sampled axis burns from where it was cut off, with the radius it has there.
+    let is_sampled = axis.accuracy != Accuracy::Exact;
+    if !(axis.complete || is_cut || is_sampled) {
         return Err(HierarchyError::Incomplete);
     }
     let frame = match axis.side {

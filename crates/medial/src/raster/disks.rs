@@ -38,7 +38,7 @@ pub(crate) fn disk_cells(
 /// use medial::engine::{Options, raster_transform};
 /// use medial::raster::{Grid, Mask, mask_of_disks};
 /// let mask = Mask::new(Grid::of_image(40, 20), |x, y| (x / 5 + y / 7) % 3 > 0)?;
-/// let axis = raster_transform(&mask, None, &Options::default())?;
+/// let axis = raster_transform(&mask, &Options { residual: None, ..Options::default() })?;
 /// assert_eq!(mask_of_disks(&axis, mask.grid())?, mask);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```

@@ -25,11 +25,11 @@ pub struct Grid {
 }
 
 impl Grid {
-    /// The grid of an image without a place of its own: cells of size 1, x to the right and y downwards
-    /// from the upper left corner.
+    /// The grid of an image without a place of its own: cells of size 1 from the upper left corner, x to the
+    /// right and y upwards, so that y is the negative of rows.
     #[must_use]
     pub const fn of_image(columns: u32, rows: u32) -> Self {
-        Self { origin: Point::new(0.0, 0.0), cell: [1.0, 1.0], columns, rows }
+        Self { origin: Point::new(0.0, 0.0), cell: [1.0, -1.0], columns, rows }
     }
 
     /// The corner between four cells, counted from the origin.

@@ -123,6 +123,7 @@ impl Drawn {
                 fill: self.fill,
                 curves,
                 notes: self.notes,
+                mask: None,
             }),
             Err(error) => Err(FeatureError { feature: index, id: self.id, error }),
         }

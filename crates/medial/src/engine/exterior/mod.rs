@@ -23,11 +23,12 @@ mod frame;
 use super::divide_and_conquer::{self, divide_and_conquer_with};
 use super::draft::site_record;
 use super::{
-    DEFAULT_RESIDUAL, EngineError, Options, path_tracing_with, raster_transform_of_domain,
+    EngineError, Options, path_tracing_with, raster_transform, raster_transform_of_domain,
 };
 use crate::axis::{Accuracy, Engine, KeypointKind, MedialAxis, Path, Side};
 use crate::domain::{Complement, Domain, Site};
 use crate::geom::{Point, Rect};
+use crate::raster::Mask;
 use cut::{Cut, End};
 use frame::Frame;
 
@@ -43,9 +44,22 @@ pub fn interior(
     match engine {
         Engine::PathTracing => path_tracing_with(domain, options),
         Engine::DivideAndConquer => divide_and_conquer_with(domain, options),
-        Engine::RasterTransform => {
-            raster_transform_of_domain(domain, Some(DEFAULT_RESIDUAL), options)
-        }
+        Engine::RasterTransform => raster_transform_of_domain(domain, options),
+    }
+}
+
+/// The sampled medial axis of a mask, by an engine on cells.
+///
+/// # Errors
+/// Those of the engine; [`EngineError::NoMask`] if it takes no masks.
+pub fn of_mask(
+    mask: &Mask,
+    engine: Engine,
+    options: &Options<'_>,
+) -> Result<MedialAxis, EngineError> {
+    match engine {
+        Engine::RasterTransform => raster_transform(mask, options),
+        Engine::PathTracing | Engine::DivideAndConquer => Err(EngineError::NoMask { engine }),
     }
 }
 

@@ -37,9 +37,6 @@ use crate::raster::{
 };
 use medial_cells::medial_cells;
 
-/// The chord residual, in cells, above which cells are medial where nothing else is said.
-pub const DEFAULT_RESIDUAL: f64 = 2.0;
-
 /// The medial cells of a mask, with their distances.
 #[derive(Debug)]
 pub struct Skeleton<'m> {
@@ -51,14 +48,14 @@ pub struct Skeleton<'m> {
 }
 
 impl<'m> Skeleton<'m> {
-    /// Finds the medial cells of a mask: those with a chord residual above so many cells, or, without one, so
-    /// many that their disks are the mask.
+    /// Finds the medial cells of a mask: those with a chord residual above that of the options, or, without
+    /// one, so many that their disks are the mask.
     ///
     /// ```
     /// use medial::engine::{Options, Skeleton};
     /// use medial::raster::{Grid, Mask};
     /// let mask = Mask::new(Grid::of_image(9, 3), |_, _| true)?;
-    /// let skeleton = Skeleton::new(&mask, Some(2.0), &Options::default())?;
+    /// let skeleton = Skeleton::new(&mask, &Options::default())?;
     /// // The middle row, as far as disks of radius 1.5 go.
     /// assert_eq!(skeleton.cells().cells(1).collect::<Vec<_>>(), [1, 2, 3, 4, 5, 6, 7]);
     /// assert_eq!(skeleton.radius(4, 1), Some(1.5));
@@ -67,12 +64,9 @@ impl<'m> Skeleton<'m> {
     ///
     /// # Errors
     /// If the options say to stop.
-    pub fn new(
-        mask: &'m Mask,
-        residual: Option<f64>,
-        options: &Options<'_>,
-    ) -> Result<Self, EngineError> {
+    pub fn new(mask: &'m Mask, options: &Options<'_>) -> Result<Self, EngineError> {
         let watch = Watch::new(options);
+        let residual = options.residual;
         let aspect = mask.grid().aspect();
         let bits = &mask.bits;
         let mut features = Features::new(bits, aspect, options.threads);
@@ -186,12 +180,8 @@ fn uncovered(mask: &Mask, features: &Features, cells: &Bits) -> Bits {
 ///
 /// # Errors
 /// Those of [`Skeleton::new`] and [`Skeleton::axis`].
-pub fn raster_transform(
-    mask: &Mask,
-    residual: Option<f64>,
-    options: &Options<'_>,
-) -> Result<MedialAxis, EngineError> {
-    Skeleton::new(mask, residual, options)?.axis()
+pub fn raster_transform(mask: &Mask, options: &Options<'_>) -> Result<MedialAxis, EngineError> {
+    Skeleton::new(mask, options)?.axis()
 }
 
 /// The sampled medial axis of a domain, on cells of the size that the options say: those whose centres lie in
@@ -205,7 +195,7 @@ pub fn raster_transform(
 /// let ring = [(0., 0.), (6., 0.), (6., 2.), (0., 2.)].map(|(x, y)| Point::new(x, y));
 /// let domain = Domain::from_polygons(&[vec![ring.to_vec()]], &domain::Options::default())?;
 /// let options = Options { cell: Some(0.1), ..Options::default() };
-/// let axis = raster_transform_of_domain(&domain, Some(2.0), &options)?;
+/// let axis = raster_transform_of_domain(&domain, &options)?;
 /// let count = |kind| axis.keypoints().iter().filter(|k| k.kind == kind).count();
 /// assert_eq!((count(KeypointKind::Tip), count(KeypointKind::Junction)), (4, 2));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -215,11 +205,10 @@ pub fn raster_transform(
 /// If the cells are too many or have no size, and those of [`raster_transform`].
 pub fn raster_transform_of_domain(
     domain: &Domain,
-    residual: Option<f64>,
     options: &Options<'_>,
 ) -> Result<MedialAxis, EngineError> {
     let cell = options.cell.unwrap_or_else(|| default_cell(domain));
     let grid = grid_around(domain, cell, 1)?;
     let mask = digitise(domain, &grid).map_err(DigitiseError::from)?;
-    Skeleton::new(&mask, residual, options)?.axis_of_domain(domain)
+    Skeleton::new(&mask, options)?.axis_of_domain(domain)
 }

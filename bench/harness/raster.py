@@ -1,0 +1,96 @@
+"""Compares the raster transform with thinning and medial axes of other libraries on images."""
+
+import json
+
+from . import BENCH
+from .run import Unfinished, run, short
+
+# Pinned, so that the page can be drawn up again.
+PEERS = ["scikit-image==0.26.0", "opencv-contrib-python-headless==5.0.0.93", "shapely==2.1.2",
+         "imageio==2.38.1"]
+
+# Seconds of processor time for one run.
+LIMIT = 240
+
+# Sides of the squares that are timed, in pixels.
+SIDES = [512, 1024, 2048, 4096]
+
+SHAPES = ["horse", "blobs", "page"]
+
+OURS = "medial raster_transform"
+
+RIVALS = ["skimage medial_axis", "skimage skeletonize", "skimage skeletonize lee", "skimage thin",
+          "opencv zhang_suen", "opencv guo_hall", "skeletonize (Rust)"]
+
+# Images whose cells are judged, by folder.
+FOLDERS = ["mpeg7", "masks", "scans"]
+
+
+def timings(programs, python, folder, data, options):
+    """Yields the lines of the table of times, in nanoseconds a pixel."""
+    names = [OURS, *options.rivals]
+    yield ["shape", "megapixels", "filled", *names, "bytes a pixel", "skimage medial_axis ÷ medial"]
+    yield ["---"] + ["--:"] * (len(names) + 4)
+    for shape in options.shapes:
+        for side in options.sides:
+            image = folder / f"{shape}_{side}.pbm"
+            words = [python, BENCH / "raster_images.py", shape, side, data / "images", image]
+            filled = float(run(list(map(str, words)), LIMIT)[0])
+            found = {name: [] for name in names}
+            failed, memory = {}, ""
+            for _ in range(options.rounds):
+                for name in names:
+                    if name in failed:
+                        continue
+                    try:
+                        told = json.loads(run(command(name, programs, python, image), LIMIT)[0])
+                    except Unfinished as reason:
+                        failed[name] = str(reason)
+                        continue
+                    if name == OURS:
+                        memory = short(told["bytes"], 2)
+                        told["ns"] = told["cells_ns"] + told["axis_ns"]
+                    found[name].append(told["ns"])
+            least = {name: min(times) for name, times in found.items() if times}
+            cells = [failed.get(name) or short(least[name]) for name in names]
+            ratio = ""
+            if OURS in least and RIVALS[0] in least:
+                ratio = short(least[RIVALS[0]] / least[OURS], 2)
+            yield [shape, short(side * side / 1e6, 2), f"{filled:.0%}", *cells, memory, ratio]
+
+
+def command(name, programs, python, image):
+    """The words that time a program on an image."""
+    if name == OURS:
+        return [str(programs["bench"]), "raster", str(image)]
+    if name == RIVALS[-1]:
+        return [str(programs["rivals"]), "raster", str(image)]
+    return [str(python), str(BENCH / "raster_peers.py"), name, str(image)]
+
+
+def quality(programs, python, folder, data):
+    """Yields the lines of the table of quality."""
+    yield ["images", "number", "components off", "holes off", "removable blocks", "cells of the shape",
+           "IoU mean", "IoU least", "IoU without pruning, least", "distance from the exact axis, px",
+           "drift when turned by 30°, px"]
+    yield ["---"] + ["--:"] * 10
+    everything = []
+    for kind in FOLDERS:
+        files = sorted((data / "images" / kind).glob("*.png"))
+        words = [python, BENCH / "raster_quality.py", programs["bench"], programs["medial"], folder, *files]
+        lines = run(list(map(str, words)), 3600)[0].splitlines()
+        found = [json.loads(line) for line in lines]
+        everything += found
+        yield row(kind, found)
+    yield row("**all**", everything)
+
+
+def row(kind, found):
+    """What was found for some images."""
+    mean = lambda key: [f[key] for f in found if f.get(key) is not None]
+    average = lambda key: sum(mean(key)) / max(1, len(mean(key)))
+    total = lambda key: str(sum(mean(key)))
+    return [kind, str(len(found)), total("components"), total("holes"), total("blocks"),
+            f"{average('cells'):.1%}", f"{average('iou'):.4f}", f"{min(mean('iou')):.4f}",
+            f"{min(mean('iou_none')):.4f}", f"{average('centred'):.3f}", f"{average('drift'):.3f}"]
+

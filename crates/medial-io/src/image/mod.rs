@@ -1,0 +1,192 @@
+//! Masks from images: PNG and TIFF, with the place that GeoTIFF gives them.
+//!
+//! # Contract
+//! An image gives one feature, which carries the [mask](crate::Feature::mask) and its outline as polygons.
+//! Cells of the shape are those whose value is above a threshold: colours count by their brightness, and
+//! what is transparent, has the value for no data, or is not a number, lies outside. Without a threshold it
+//! is the middle between the least and the greatest value, so a mask of two values needs none; a mask of one
+//! value is inside if that is above 0.
+//!
+//! Coordinates are those of the georeference. Without one they are pixels from the upper left
+//! corner, x to the right and y upwards, so that y is the negative of rows, as with drawings.
+
+mod png;
+mod tiff;
+
+use crate::{Crs, Error, Feature, Format, Layer, ReadOptions};
+use medial::geom::Point;
+use medial::raster::{Grid, Mask, outline};
+use std::sync::Arc;
+
+/// A picture of one value a pixel.
+pub(crate) struct Picture {
+    pub columns: u32,
+    pub rows: u32,
+    /// Row by row; not a number where there is no data.
+    pub values: Values,
+    pub place: Option<Place>,
+}
+
+/// Values of pixels.
+pub(crate) enum Values {
+    Bytes(Vec<u8>),
+    Words(Vec<u16>),
+    Numbers(Vec<f32>),
+    /// Where single precision is not enough.
+    Doubles(Vec<f64>),
+}
+
+/// Where a picture lies.
+#[derive(Clone, Debug)]
+pub(crate) struct Place {
+    pub origin: Point,
+    pub cell: [f64; 2],
+    pub crs: Option<Crs>,
+}
+
+impl Values {
+    fn len(&self) -> usize {
+        match self {
+            Self::Bytes(values) => values.len(),
+            Self::Words(values) => values.len(),
+            Self::Numbers(values) => values.len(),
+            Self::Doubles(values) => values.len(),
+        }
+    }
+
+    /// The least and the greatest value that is a number; `None` if there is none.
+    fn range(&self) -> Option<(f64, f64)> {
+        fn of<T: Copy + PartialOrd + Into<f64>>(values: &[T]) -> Option<(f64, f64)> {
+            let numbers = values.iter().map(|&value| value.into()).filter(|v: &f64| !v.is_nan());
+            numbers.fold(None, |range, v| {
+                let (low, high) = range.unwrap_or((v, v));
+                Some((v.min(low), v.max(high)))
+            })
+        }
+        match self {
+            Self::Bytes(values) => {
+                let least = values.iter().min().copied()?;
+                Some((f64::from(least), f64::from(values.iter().max().copied()?)))
+            }
+            Self::Words(values) => of(values),
+            Self::Numbers(values) => of(values),
+            Self::Doubles(values) => of(values),
+        }
+    }
+
+    /// Sets the cells of a row whose values are above a threshold, or not above it.
+    fn fill(&self, mask: &mut Mask, row: u32, threshold: f64, inverted: bool) {
+        let columns = mask.grid().columns as usize;
+        let span = row as usize * columns..(row as usize + 1) * columns;
+        fn put<T: Copy + Into<f64>>(
+            mask: &mut Mask,
+            row: u32,
+            of: &[T],
+            is_in: impl Fn(f64) -> bool,
+        ) {
+            let mut bytes = vec![0_u8; of.len().div_ceil(8)];
+            for (byte, eight) in bytes.iter_mut().zip(of.chunks(8)) {
+                for (bit, &value) in eight.iter().enumerate() {
+                    *byte |= u8::from(is_in(value.into())) << bit;
+                }
+            }
+            mask.put_row(row, &bytes);
+        }
+        // What is not a number is neither above nor below.
+        let is_in = |value: f64| if inverted { value <= threshold } else { value > threshold };
+        match self {
+            Self::Bytes(values) => put(mask, row, &values[span], is_in),
+            Self::Words(values) => put(mask, row, &values[span], is_in),
+            Self::Numbers(values) => put(mask, row, &values[span], is_in),
+            Self::Doubles(values) => put(mask, row, &values[span], is_in),
+        }
+    }
+}
+
+/// The mask of an image, and the coordinate reference system that it names.
+///
+/// # Errors
+/// If the bytes are no such image, are damaged, or the image is too large.
+pub fn read_mask(
+    format: Format,
+    bytes: &[u8],
+    options: &ReadOptions,
+) -> Result<(Mask, Option<Crs>), Error> {
+    let picture = match format {
+        Format::Png => png::read(bytes),
+        Format::Tiff => tiff::read(bytes),
+        other => Err(Error::Unreadable { format: other }),
+    }?;
+    let Picture { columns, rows, values, place } = picture;
+    if values.len() as u64 != u64::from(columns) * u64::from(rows) {
+        let why = format!("the image has {} values for {columns} by {rows} pixels", values.len());
+        return Err(Error::File { why });
+    }
+    let (grid, crs) = match place {
+        Some(Place { origin, cell, crs }) => (Grid { origin, cell, columns, rows }, crs),
+        None => (Grid::of_image(columns, rows), None),
+    };
+    let mut mask = Mask::empty(grid).map_err(|error| Error::File { why: error.to_string() })?;
+    let threshold = options.threshold.or_else(|| {
+        let (low, high) = values.range()?;
+        Some(if low < high { 0.5 * (low + high) } else { 0.0 })
+    });
+    if let Some(threshold) = threshold {
+        (0..rows).for_each(|row| values.fill(&mut mask, row, threshold, options.invert));
+    }
+    Ok((mask, crs))
+}
+
+/// Reads an image as one feature.
+///
+/// # Errors
+/// As [`read_mask`].
+pub fn read<'a>(format: Format, bytes: &[u8], options: &ReadOptions) -> Result<Layer<'a>, Error> {
+    let (mask, crs) = read_mask(format, bytes, options)?;
+    let feature = Feature {
+        polygons: outline(&mask).polygons,
+        geometry: "a mask".to_owned(),
+        polygonal: true,
+        mask: Some(Arc::new(mask)),
+        ..Feature::default()
+    };
+    let mut layer = Layer::new(std::iter::once(Ok(feature)));
+    (layer.crs, layer.len) = (crs, Some(1));
+    Ok(layer)
+}
+
+/// Most bytes that an image may have in memory: an image of so many bytes in its file that has more is
+/// damaged, or made to fill the memory.
+fn most_bytes(in_file: usize) -> usize {
+    /// Blank pages shrink most; those of this size are read whatever their file has.
+    const ALWAYS: usize = 1 << 30;
+    /// More than the usual compressions make of anything but blank pages.
+    const RATIO: usize = 2000;
+    ALWAYS.max(in_file.saturating_mul(RATIO))
+}
+
+/// The brightness of a colour [ITU-R BT.709], as its values are stored.
+fn brightness([red, green, blue]: [f64; 3]) -> f64 {
+    0.2126 * red + 0.7152 * green + 0.0722 * blue
+}
+
+/// One value for each pixel of several samples, the last of which may say how opaque it is, up to `opaque`.
+fn flattened<T: Copy + Into<f64>>(
+    samples: &[T],
+    each: usize,
+    colours: usize,
+    opaque: Option<f64>,
+) -> Values {
+    let value = |pixel: &[T]| {
+        let hidden = opaque.is_some_and(|opaque| pixel[each - 1].into() < 0.5 * opaque);
+        let value = match colours {
+            3 => brightness([pixel[0], pixel[1], pixel[2]].map(Into::into)),
+            _ => pixel[0].into(),
+        };
+        if hidden { f32::NAN } else { value as f32 }
+    };
+    Values::Numbers(samples.chunks_exact(each).map(value).collect())
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,121 @@
+use super::*;
+use ::tiff::encoder::{TiffEncoder, colortype};
+use ::tiff::tags::Tag;
+use std::io::Cursor;
+
+fn png_of(
+    columns: u32,
+    rows: u32,
+    color: ::png::ColorType,
+    depth: ::png::BitDepth,
+    data: &[u8],
+) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    let mut encoder = ::png::Encoder::new(&mut bytes, columns, rows);
+    encoder.set_color(color);
+    encoder.set_depth(depth);
+    if color == ::png::ColorType::Indexed {
+        encoder.set_palette(vec![0, 0, 0, 255, 255, 255, 200, 200, 200]);
+        encoder.set_trns(vec![255, 255, 0]);
+    }
+    let mut writer = encoder.write_header().unwrap();
+    writer.write_image_data(data).unwrap();
+    writer.finish().unwrap();
+    bytes
+}
+
+fn drawn(format: Format, bytes: &[u8], options: &ReadOptions) -> Vec<String> {
+    let (mask, _) = read_mask(format, bytes, options).unwrap();
+    let grid = mask.grid();
+    let cell = |x, y| if mask.get(x, y) { '#' } else { '.' };
+    (0..grid.rows).map(|y| (0..grid.columns).map(|x| cell(x, y)).collect()).collect()
+}
+
+#[test]
+fn png_images_of_all_kinds_are_masks() {
+    use ::png::{BitDepth, ColorType};
+    let plain = ReadOptions::default();
+    let one_bit = png_of(3, 2, ColorType::Grayscale, BitDepth::One, &[0b1010_0000, 0b0100_0000]);
+    assert_eq!(drawn(Format::Png, &one_bit, &plain), ["#.#", ".#."]);
+    let inverted = ReadOptions { invert: true, ..ReadOptions::default() };
+    assert_eq!(drawn(Format::Png, &one_bit, &inverted), [".#.", "#.#"]);
+    let grey = png_of(3, 1, ColorType::Grayscale, BitDepth::Eight, &[0, 100, 255]);
+    assert_eq!(drawn(Format::Png, &grey, &plain), ["..#"]);
+    let low = ReadOptions { threshold: Some(99.0), ..ReadOptions::default() };
+    assert_eq!(drawn(Format::Png, &grey, &low), [".##"]);
+    let words = png_of(2, 1, ColorType::Grayscale, BitDepth::Sixteen, &[0, 9, 0, 8]);
+    assert_eq!(drawn(Format::Png, &words, &plain), ["#."]);
+    // White, black, grey that is transparent.
+    let palette = png_of(3, 1, ColorType::Indexed, BitDepth::Eight, &[1, 0, 2]);
+    assert_eq!(drawn(Format::Png, &palette, &plain), ["#.."]);
+    assert_eq!(drawn(Format::Png, &palette, &inverted), [".#."]);
+    let clear = png_of(2, 1, ColorType::Rgba, BitDepth::Eight, &[9, 9, 9, 255, 255, 255, 255, 0]);
+    assert_eq!(drawn(Format::Png, &clear, &plain), ["#."]);
+}
+
+#[test]
+fn one_value_is_inside_above_zero() {
+    use ::png::{BitDepth, ColorType};
+    let of = |value| png_of(2, 1, ColorType::Grayscale, BitDepth::Eight, &[value; 2]);
+    assert_eq!(drawn(Format::Png, &of(1), &ReadOptions::default()), ["##"]);
+    assert_eq!(drawn(Format::Png, &of(0), &ReadOptions::default()), [".."]);
+}
+
+#[test]
+fn damaged_images_are_refused_with_a_reason() {
+    use ::png::{BitDepth, ColorType};
+    let whole = png_of(40, 40, ColorType::Grayscale, BitDepth::Eight, &[7; 1600]);
+    for end in [0, 4, 20, 40, whole.len() - 20] {
+        let error = read_mask(Format::Png, &whole[..end], &ReadOptions::default()).unwrap_err();
+        assert!(error.to_string().starts_with("the image cannot be read: "), "{end}: {error}");
+    }
+    let error =
+        read_mask(Format::Tiff, b"II*\0\x08\0\0\0\x01", &ReadOptions::default()).unwrap_err();
+    assert!(error.to_string().ends_with("; save it again as TIFF"), "{error}");
+}
+
+#[test]
+fn a_geotiff_lies_where_it_says() {
+    let mut bytes = Cursor::new(Vec::new());
+    let mut encoder = TiffEncoder::new(&mut bytes).unwrap();
+    let mut image = encoder.new_image::<colortype::Gray32Float>(3, 2).unwrap();
+    let directory = image.encoder();
+    directory.write_tag(Tag::Unknown(33550), &[10.0, 20.0, 0.0][..]).unwrap();
+    directory.write_tag(Tag::Unknown(33922), &[0.0, 0.0, 0.0, 500.0, 900.0, 0.0][..]).unwrap();
+    let keys: [u16; 12] = [1, 1, 0, 2, 1024, 0, 1, 1, 3072, 0, 1, 25832];
+    directory.write_tag(Tag::Unknown(34735), &keys[..]).unwrap();
+    directory.write_tag(Tag::Unknown(42113), "-9999").unwrap();
+    image.write_data(&[0.0, 1.0, -9999.0, f32::NAN, 1.0, 0.2]).unwrap();
+    let bytes = bytes.into_inner();
+    let (mask, crs) = read_mask(Format::Tiff, &bytes, &ReadOptions::default()).unwrap();
+    assert_eq!(mask.grid().origin, Point::new(500.0, 900.0));
+    assert_eq!(mask.grid().cell, [10.0, -20.0]);
+    assert_eq!(crs.and_then(|crs| crs.epsg_code()), Some(25832));
+    assert_eq!(drawn(Format::Tiff, &bytes, &ReadOptions::default()), [".#.", ".#."]);
+    let feature = read(Format::Tiff, &bytes, &ReadOptions::default()).unwrap().next().unwrap();
+    let ring = &feature.unwrap().polygons[0][0];
+    assert!(ring.contains(&Point::new(510.0, 900.0)) && ring.contains(&Point::new(520.0, 860.0)));
+}
+
+#[test]
+fn tiff_images_of_many_depths_are_masks() {
+    fn of<C: colortype::ColorType>(columns: u32, data: &[C::Inner]) -> Vec<u8>
+    where
+        [C::Inner]: ::tiff::encoder::TiffValue,
+    {
+        let mut bytes = Cursor::new(Vec::new());
+        let rows = data.len() as u32 / C::SAMPLE_FORMAT.len() as u32 / columns;
+        TiffEncoder::new(&mut bytes).unwrap().write_image::<C>(columns, rows, data).unwrap();
+        bytes.into_inner()
+    }
+    let plain = ReadOptions::default();
+    assert_eq!(drawn(Format::Tiff, &of::<colortype::Gray8>(3, &[0, 255, 0]), &plain), [".#."]);
+    assert_eq!(drawn(Format::Tiff, &of::<colortype::Gray16>(3, &[0, 1, 1]), &plain), [".##"]);
+    let large = of::<colortype::Gray32>(2, &[u32::MAX, u32::MAX - 1]);
+    assert_eq!(drawn(Format::Tiff, &large, &plain), ["#."]);
+    assert_eq!(drawn(Format::Tiff, &of::<colortype::Gray64Float>(2, &[0.1, 0.9]), &plain), [".#"]);
+    let colours = of::<colortype::RGB8>(2, &[0, 0, 255, 0, 255, 0]);
+    assert_eq!(drawn(Format::Tiff, &colours, &plain), [".#"]);
+    let clear = of::<colortype::RGBA8>(2, &[255, 255, 255, 0, 1, 1, 1, 255]);
+    assert_eq!(drawn(Format::Tiff, &clear, &plain), [".#"]);
+}

@@ -1,0 +1,208 @@
+use super::{Picture, Place, Values, brightness, flattened, most_bytes};
+use crate::{Crs, Error};
+use medial::geom::Point;
+use std::io::Cursor;
+use tiff::decoder::{Decoder, DecodingResult, Limits};
+use tiff::tags::Tag;
+use tiff::{ColorType, TiffError};
+
+/// The tags of GeoTIFF, and that of GDAL for the value of no data.
+const PIXEL_SCALE: Tag = Tag::Unknown(33550);
+const TIE_POINTS: Tag = Tag::Unknown(33922);
+const TRANSFORMATION: Tag = Tag::Unknown(34264);
+const GEO_KEYS: Tag = Tag::Unknown(34735);
+const NO_DATA: Tag = Tag::Unknown(42113);
+
+/// Keys of GeoTIFF whose values are codes of EPSG, and the one that says what coordinates are those of.
+const GEOGRAPHIC_KEY: u16 = 2048;
+const PROJECTED_KEY: u16 = 3072;
+const RASTER_KEY: u16 = 1025;
+
+/// The code for a system that the file describes in another way.
+const USER_DEFINED: u16 = 32_767;
+
+type Source<'a> = Decoder<Cursor<&'a [u8]>>;
+
+/// Reads the first image of a TIFF file: 1 to 64 bits, whole numbers or floating-point ones; of several bands
+/// that are no colours the first.
+pub(super) fn read(bytes: &[u8]) -> Result<Picture, Error> {
+    let wrong = |error: TiffError| {
+        let why = format!("the image cannot be read: {error}; save it again as TIFF");
+        Error::File { why }
+    };
+    let mut limits = Limits::default();
+    limits.decoding_buffer_size = most_bytes(bytes.len());
+    limits.intermediate_buffer_size = most_bytes(bytes.len());
+    let mut decoder = Decoder::new(Cursor::new(bytes)).map_err(wrong)?.with_limits(limits);
+    let (columns, rows) = decoder.dimensions().map_err(wrong)?;
+    let colours = decoder.colortype().map_err(wrong)?;
+    let place = place(&mut decoder)?;
+    let no_data = decoder.get_tag_ascii_string(NO_DATA).ok();
+    let no_data = no_data.and_then(|text| text.trim_matches(['\0', ' ']).parse::<f64>().ok());
+    let palette = match colours {
+        ColorType::Palette(_) => Some(palette(&mut decoder).map_err(wrong)?),
+        _ => None,
+    };
+    let samples = decoder.read_image().map_err(wrong)?;
+    let bits = colours.bit_depth();
+    let (each, n_colours, has_alpha) = match colours {
+        ColorType::Gray(_) | ColorType::Palette(_) => (1, 1, false),
+        ColorType::GrayA(_) => (2, 1, true),
+        ColorType::RGB(_) => (3, 3, false),
+        ColorType::RGBA(_) => (4, 3, true),
+        ColorType::Multiband { num_samples, .. } => (usize::from(num_samples).max(1), 1, false),
+        ColorType::CMYK(_) => (4, 4, false),
+        other => {
+            let why = format!("images of type {other:?} are not read; save it in grey or RGB");
+            return Err(Error::File { why });
+        }
+    };
+    let samples = match samples {
+        DecodingResult::U8(samples) if bits < 8 => {
+            DecodingResult::U8(unpacked(&samples, bits, columns as usize * each, rows as usize))
+        }
+        samples => samples,
+    };
+    // Transparency by its greatest value; that of floating-point samples is 1.
+    let alpha = |greatest: f64| has_alpha.then_some(greatest);
+    let values = match samples {
+        DecodingResult::U8(samples) => match palette {
+            Some(palette) => {
+                let colour = |&k: &u8| palette.get(usize::from(k)).copied().unwrap_or(f32::NAN);
+                Values::Numbers(samples.iter().map(colour).collect())
+            }
+            None if n_colours == 4 => Values::Numbers(
+                samples
+                    .chunks_exact(4)
+                    .map(|cmyk| uninked([cmyk[0], cmyk[1], cmyk[2], cmyk[3]]))
+                    .collect(),
+            ),
+            None if each == 1 => Values::Bytes(samples),
+            None => flattened(&samples, each, n_colours, alpha(255.0)),
+        },
+        DecodingResult::U16(samples) if each == 1 => Values::Words(samples),
+        DecodingResult::U16(samples) => flattened(&samples, each, n_colours, alpha(65_535.0)),
+        DecodingResult::U32(samples) => doubles(samples.chunks_exact(each), n_colours, f64::from),
+        DecodingResult::I8(samples) => flattened(&samples, each, n_colours, alpha(127.0)),
+        DecodingResult::I16(samples) => flattened(&samples, each, n_colours, alpha(32_767.0)),
+        DecodingResult::I32(samples) => doubles(samples.chunks_exact(each), n_colours, f64::from),
+        DecodingResult::U64(samples) => {
+            doubles(samples.chunks_exact(each), n_colours, |v| v as f64)
+        }
+        DecodingResult::I64(samples) => {
+            doubles(samples.chunks_exact(each), n_colours, |v| v as f64)
+        }
+        DecodingResult::F16(samples) => {
+            let samples: Vec<f32> = samples.into_iter().map(f32::from).collect();
+            flattened(&samples, each, n_colours, alpha(1.0))
+        }
+        DecodingResult::F32(samples) => flattened(&samples, each, n_colours, alpha(1.0)),
+        DecodingResult::F64(samples) => doubles(samples.chunks_exact(each), n_colours, |v| v),
+    };
+    Ok(Picture { columns, rows, values: without(values, no_data), place })
+}
+
+/// The first value of each pixel, or its brightness, in double precision.
+fn doubles<'a, T: Copy + 'a>(
+    pixels: impl Iterator<Item = &'a [T]>,
+    colours: usize,
+    number: impl Fn(T) -> f64,
+) -> Values {
+    let value = |pixel: &[T]| match colours {
+        3 => brightness([number(pixel[0]), number(pixel[1]), number(pixel[2])]),
+        _ => number(pixel[0]),
+    };
+    Values::Doubles(pixels.map(value).collect())
+}
+
+/// The brightness of paper with these four inks.
+fn uninked([cyan, magenta, yellow, black]: [u8; 4]) -> f32 {
+    let light = |ink: u8| f64::from(255 - ink) * f64::from(255 - black) / 255.0;
+    brightness([light(cyan), light(magenta), light(yellow)]) as f32
+}
+
+/// Samples of fewer than eight bits, a byte each; rows start at bytes.
+fn unpacked(packed: &[u8], bits: u8, each_row: usize, rows: usize) -> Vec<u8> {
+    let row_bytes = (each_row * usize::from(bits)).div_ceil(8);
+    if packed.len() == each_row * rows || row_bytes * rows != packed.len() {
+        // A byte each already, or nothing that is known.
+        return packed.to_vec();
+    }
+    let in_byte = usize::from(8 / bits);
+    let sample = |row: &[u8], k: usize| {
+        let shift = usize::from(bits) * (in_byte - 1 - k % in_byte);
+        row[k / in_byte] >> shift & ((1 << bits) - 1)
+    };
+    packed
+        .chunks_exact(row_bytes.max(1))
+        .flat_map(|row| (0..each_row).map(move |k| sample(row, k)))
+        .collect()
+}
+
+/// The values, with those for no data not a number.
+fn without(values: Values, no_data: Option<f64>) -> Values {
+    let Some(no_data) = no_data.filter(|no_data| !no_data.is_nan()) else { return values };
+    let kept = |value: f64| if value == no_data { f32::NAN } else { value as f32 };
+    match values {
+        Values::Bytes(values) => {
+            Values::Numbers(values.into_iter().map(|v| kept(v.into())).collect())
+        }
+        Values::Words(values) => {
+            Values::Numbers(values.into_iter().map(|v| kept(v.into())).collect())
+        }
+        Values::Numbers(values) => {
+            // What was written in double precision was rounded as the values were.
+            let is_no_data = |v: f32| v == no_data as f32;
+            Values::Numbers(
+                values.into_iter().map(|v| if is_no_data(v) { f32::NAN } else { v }).collect(),
+            )
+        }
+        Values::Doubles(values) => Values::Doubles(
+            values.into_iter().map(|v| if v == no_data { f64::NAN } else { v }).collect(),
+        ),
+    }
+}
+
+/// The brightness of the colours of a palette, up to 65,535.
+fn palette(decoder: &mut Source<'_>) -> Result<Vec<f32>, TiffError> {
+    let map = decoder.get_tag_u16_vec(Tag::ColorMap)?;
+    let n = map.len() / 3;
+    let colour = |k: usize| brightness([map[k], map[n + k], map[2 * n + k]].map(f64::from)) as f32;
+    Ok((0..n).map(colour).collect())
+}
+
+/// Where the image lies, if it says so.
+fn place(decoder: &mut Source<'_>) -> Result<Option<Place>, Error> {
+    let numbers = |decoder: &mut Source<'_>, tag| decoder.get_tag_f64_vec(tag).ok();
+    let keys = decoder.get_tag_u16_vec(GEO_KEYS).unwrap_or_default();
+    // Four numbers a key, behind four of the directory: key, where its value is, how many, value.
+    let key = |wanted: u16| {
+        let mut keys = keys.chunks_exact(4).skip(1);
+        keys.find(|key| key[0] == wanted && key[1] == 0).map(|key| key[3])
+    };
+    let (origin, cell) = if let Some(matrix) = numbers(decoder, TRANSFORMATION) {
+        let [a, b, _, d, e, f, _, h] = matrix[..].first_chunk::<8>().copied().unwrap_or_default();
+        if b != 0.0 || e != 0.0 {
+            let why = "the image is turned or sheared in its coordinate system; warp it first, as with gdalwarp";
+            return Err(Error::File { why: why.to_owned() });
+        }
+        (Point::new(d, h), [a, f])
+    } else {
+        let scale = numbers(decoder, PIXEL_SCALE);
+        let tie = numbers(decoder, TIE_POINTS);
+        let (Some([width, height, ..]), Some([i, j, _, x, y, ..])) =
+            (scale.as_deref(), tie.as_deref())
+        else {
+            return Ok(None);
+        };
+        // Rows go down.
+        (Point::new(x - i * width, y + j * height), [*width, -height])
+    };
+    // The numbers are those of the centre of the first pixel.
+    let is_point = key(RASTER_KEY) == Some(2);
+    let shift = if is_point { 0.5 } else { 0.0 };
+    let origin = Point::new(origin.x - shift * cell[0], origin.y - shift * cell[1]);
+    let code = key(PROJECTED_KEY).or_else(|| key(GEOGRAPHIC_KEY));
+    let code = code.filter(|&code| code != 0 && code != USER_DEFINED);
+    Ok(Some(Place { origin, cell, crs: code.map(|code| Crs::epsg(u32::from(code))) }))
+}
