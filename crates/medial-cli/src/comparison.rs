@@ -51,9 +51,18 @@ impl Comparison {
         stages: &mut Stages,
     ) -> Result<Self, Entry> {
         let mut axes = Vec::new();
-        for (k, &engine) in args.engine.iter().enumerate() {
+        let all: Vec<Engine> = match &args.engine[..] {
+            [] => Engine::ALL
+                .iter()
+                .copied()
+                .filter(|e| side == Side::Interior || e.is_exact())
+                .collect(),
+            named => named.to_vec(),
+        };
+        let options = &Options { cell: args.cell, ..*options };
+        for (k, &engine) in all.iter().enumerate() {
             // One that is named twice runs once.
-            if args.engine[..k].contains(&engine) {
+            if all[..k].contains(&engine) {
                 continue;
             }
             let mut time = Duration::ZERO;

@@ -107,6 +107,9 @@ impl Entry {
             EngineError::Frame { .. } => "frame",
             EngineError::Cancelled => "cancelled",
             EngineError::TimeLimit => "time_limit",
+            EngineError::Cells(_) => "cells",
+            EngineError::NoExterior { .. } => "no_exterior",
+            EngineError::NoMask { .. } => "no_mask",
             _ => "internal",
         };
         Self::refused(code, error.to_string())

@@ -24,7 +24,9 @@ impl Dice {
 /// A mask of blobs, bars, holes or noise.
 fn random(seed: u64) -> Mask {
     let mut dice = Dice(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1);
-    (0..20).for_each(|_| drop(dice.next(2)));
+    for _ in 0..20 {
+        dice.next(2);
+    }
     let (columns, rows) = (dice.next(70) as u32, dice.next(50) as u32);
     let mut grid = Grid::of_image(columns, rows);
     match seed % 4 {

@@ -548,10 +548,14 @@ pub struct CompareArgs {
     /// people; by default that of the extension (.csv, .txt), else json
     #[arg(long, value_name = "FORM")]
     pub to: Option<Rows>,
-    /// Engines to compare, separated by commas; by default all: path_tracing, divide_and_conquer
-    #[arg(long, value_name = "NAMES", value_delimiter = ',', value_parser = engine,
-          default_values_t = Engine::ALL.to_vec(), hide_default_value = true)]
+    /// Engines to compare, separated by commas: path_tracing, divide_and_conquer, raster_transform; by default
+    /// all that know the side
+    #[arg(long, value_name = "NAMES", value_delimiter = ',', value_parser = engine)]
     pub engine: Vec<Engine>,
+    /// The size of cells of engines that sample, in units of the input; by default a thousandth of the longer
+    /// side of the feature's box
+    #[arg(long, value_name = "SIZE", value_parser = positive, allow_negative_numbers = true)]
+    pub cell: Option<f64>,
     #[command(flatten)]
     pub region: Region,
     #[command(flatten)]

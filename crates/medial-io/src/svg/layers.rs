@@ -92,7 +92,9 @@ pub(super) fn keypoints(canvas: &mut Canvas, scenes: &[Scene]) {
         let mut sizes: Vec<Data> = (0..DOT_SIZES).map(|_| Data::new(&frame)).collect();
         for (scene, room) in scenes.iter().zip(&room) {
             for (keypoint, &room) in scene.axis.keypoints().iter().zip(room) {
-                if keypoint.kind == kind {
+                // Samples are no events.
+                let is_sample = kind == KeypointKind::Transition && scene.is_sampled();
+                if keypoint.kind == kind && !is_sample {
                     let steps = (frame.stroke * DOT_ROOM / frame.length(room)).log2().ceil();
                     sizes[(steps.max(0.0) as usize).min(DOT_SIZES - 1)].dot(keypoint.position);
                 }

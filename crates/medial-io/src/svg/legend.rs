@@ -2,7 +2,7 @@ use super::canvas::{Anchor, Canvas, Data};
 use super::layers::{INK, dots};
 use super::palette::{STEPS, color};
 use super::{Options, Scene};
-use medial::axis::KeypointKind;
+use medial::axis::{Joining, KeypointKind};
 use medial::geom::Point;
 
 pub(super) const QUIET: &str = "#607d8b";
@@ -48,7 +48,13 @@ pub(super) fn bar(canvas: &mut Canvas, at: Point, most: f64, what: &str) {
 
 /// How many of each kind, right-aligned, each with its mark.
 fn counts(canvas: &mut Canvas, at: Point, scenes: &[Scene], keypoints: bool) {
-    let n_paths: usize = scenes.iter().map(|s| s.axis.paths().len()).sum();
+    // Steps from sample to sample are no paths that anybody would count.
+    let is_sampled = scenes.iter().any(Scene::is_sampled);
+    let lines = |s: &Scene| match is_sampled {
+        true => s.axis.polylines(Joining::Branches).len(),
+        false => s.axis.paths().len(),
+    };
+    let n_lines: usize = scenes.iter().map(lines).sum();
     let mut x = at.x;
     if keypoints {
         use KeypointKind::{Clipped, End, Junction, Tip, Transition};
@@ -58,6 +64,7 @@ fn counts(canvas: &mut Canvas, at: Point, scenes: &[Scene], keypoints: bool) {
             // Only outside, or in axes that are not complete, are there any.
             let label = match (kind, n) {
                 (Clipped | Tip, 0) => continue,
+                (Transition | End, _) if is_sampled => continue,
                 (Clipped, n) => format!("{n} clipped"),
                 _ => plural(n, kind.name()),
             };
@@ -70,11 +77,18 @@ fn counts(canvas: &mut Canvas, at: Point, scenes: &[Scene], keypoints: bool) {
         }
     }
     let place = at + Point::new(0.0, 28.0);
-    canvas.text(place, 12.0, Anchor::End, QUIET, &plural(n_paths, "path"));
+    canvas.text(
+        place,
+        12.0,
+        Anchor::End,
+        QUIET,
+        &plural(n_lines, if is_sampled { "branch" } else { "path" }),
+    );
 }
 
 pub(super) fn plural(n: usize, word: &str) -> String {
-    if n == 1 { format!("1 {word}") } else { format!("{n} {word}s") }
+    let ending = if word.ends_with("ch") { "es" } else { "s" };
+    if n == 1 { format!("1 {word}") } else { format!("{n} {word}{ending}") }
 }
 
 /// Three significant digits, as in `0`, `1.25`, `1250`, `2.5e-7`.

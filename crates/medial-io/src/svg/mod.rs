@@ -31,7 +31,7 @@ pub use walls::{ThinWalls, write_walls};
 use crate::text::escaped;
 use canvas::Canvas;
 use frame::Frame;
-use medial::axis::MedialAxis;
+use medial::axis::{Accuracy, MedialAxis};
 use medial::geom::Point;
 
 /// One shape with its axis.
@@ -41,6 +41,13 @@ pub struct Scene {
     pub boundary: Vec<Vec<Point>>,
     /// The axis.
     pub axis: MedialAxis,
+}
+
+impl Scene {
+    /// Whether its axis comes from samples.
+    fn is_sampled(&self) -> bool {
+        self.axis.accuracy != Accuracy::Exact
+    }
 }
 
 /// What a picture shows.

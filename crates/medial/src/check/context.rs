@@ -107,6 +107,11 @@ impl<'a> Context<'a> {
         self.horizon.as_ref().map_or(0, |horizon| horizon.gaps.len())
     }
 
+    /// The name of an edge.
+    pub(super) fn name(&self, edge: u32) -> Name {
+        Name::of(self.domain, Site::edge(edge))
+    }
+
     /// Position of keypoint number `keypoint`.
     pub(super) fn position(&self, keypoint: u32) -> Point {
         self.axis.keypoints().at(keypoint).position

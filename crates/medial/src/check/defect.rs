@@ -155,6 +155,15 @@ pub enum Defect {
         /// Position of the keypoint.
         at: Point,
     },
+    /// A point of the boundary is farther from every disk of a sampled axis than twice the sample distance.
+    Uncovered {
+        /// The edge.
+        edge: Name,
+        /// How far it is from the nearest disk.
+        away: f64,
+        /// The point.
+        at: Point,
+    },
     /// An end is not exactly a convex corner with its two edges and radius 0.
     End {
         /// Number of the keypoint.
@@ -353,6 +362,9 @@ impl fmt::Display for Defect {
                 f,
                 "keypoint {keypoint}: the radius is {off} off, more than the sample distance"
             ),
+            Self::Uncovered { edge, away, .. } => {
+                write!(f, "{edge}: {away} from every disk, more than twice the sample distance")
+            }
             Self::End { keypoint, .. } => write!(
                 f,
                 "keypoint {keypoint}: an end must be a convex corner with its two edges, radius 0"
@@ -436,6 +448,7 @@ impl Defect {
             | Self::Position { at, .. }
             | Self::Radius { at, .. }
             | Self::SampledRadius { at, .. }
+            | Self::Uncovered { at, .. }
             | Self::End { at, .. }
             | Self::Corner { at, .. }
             | Self::FakeTransition { at, .. }

@@ -2,6 +2,7 @@ use super::context::Context;
 use super::verdict::{Counts, Identity, Relation};
 use crate::axis::{Accuracy, KeypointKind};
 use crate::domain::Corner;
+use crate::geom::{Point, order_key};
 
 /// Counts what there is on the domain and on the axis.
 pub(super) fn counts(context: &Context) -> Counts {
@@ -65,6 +66,10 @@ pub(super) fn identities(context: &Context, counts: &Counts) -> Vec<Identity> {
         relation: Relation::Equal,
     };
     let (w, c) = (counts.walks as i64, counts.components as i64);
+    let (w, c) = match context.axis.accuracy {
+        Accuracy::Exact => (w, c),
+        Accuracy::Sampled(_) => seen_by_samples(context, counts).unwrap_or((w, c)),
+    };
     let (outside, h) = (i64::from(context.horizon.is_some()), context.n_gaps() as i64);
     // What is convex has no axis outside.
     let without = i64::from(outside == 1 && h == 0);
@@ -108,6 +113,30 @@ pub(super) fn identities(context: &Context, counts: &Counts) -> Vec<Identity> {
         at_most("Voronoi edges", 2 * (n + m) + 3 * w - 6 * c - far, voronoi),
     ]);
     all
+}
+
+/// Walks and components if parts that touch in points are one, where the axis has as many components: samples may
+/// go across such a point.
+fn seen_by_samples(context: &Context, counts: &Counts) -> Option<(i64, i64)> {
+    let domain = context.domain;
+    let mut starts: Vec<(Point, u32)> = context
+        .walks()
+        .flat_map(|(_, walk)| walk.edges().map(|edge| (domain.edge(edge).start, walk.component)))
+        .collect();
+    starts.sort_by_key(|(p, _)| (order_key(p.x), order_key(p.y)));
+    let mut groups = Groups::new(domain.n_components());
+    // How many points are the same as another one.
+    let mut shared = 0;
+    for pair in starts.windows(2).filter(|pair| pair[0].0 == pair[1].0) {
+        shared += 1;
+        groups.join(pair[0].1, pair[1].1);
+    }
+    let components = groups.count();
+    // Each shared point takes one from the components less the holes.
+    let holes = components as i64 - (2 * counts.components as i64 - counts.walks as i64 - shared);
+    let differs = components != counts.components || shared > 0;
+    let fits = counts.axis_components == components;
+    (differs && fits).then_some((components as i64 + holes, components as i64))
 }
 
 /// Joints of sites whose common normal goes to infinity, at the ends of edges on the hull.

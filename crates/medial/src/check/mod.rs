@@ -118,7 +118,10 @@ fn judge(domain: &Domain, outside: Option<&Complement>, axis: &MedialAxis) -> Ve
             true
         }
         Accuracy::Sampled(spacing) => {
-            sampled::check(&context, spacing, &mut defects);
+            sampled::check_radii(&context, spacing, &mut defects);
+            if axis.complete {
+                sampled::check_cover(&context, spacing, &mut defects);
+            }
             left_out.push(LeftOut::Governors);
             false
         }
@@ -127,7 +130,8 @@ fn judge(domain: &Domain, outside: Option<&Complement>, axis: &MedialAxis) -> Ve
         left_out.extend([LeftOut::Leaves, LeftOut::Tiling, LeftOut::Area]);
     }
     let mut all = Vec::new();
-    if axis.complete {
+    // Whatever pruning took from a sampled axis, it hangs together as before.
+    if axis.complete || !exact {
         all = identities::identities(&context, &counts);
         if exact && outside.is_none() {
             all.push(areas::identity(&context));
