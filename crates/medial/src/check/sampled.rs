@@ -27,14 +27,22 @@ pub(super) fn check_radii(context: &Context, spacing: f64, defects: &mut Vec<Def
 pub(super) fn check_cover(context: &Context, spacing: f64, defects: &mut Vec<Defect>) {
     /// Points along one edge; those of longer ones are farther apart.
     const MOST: f64 = 1e6;
-    let disks: Vec<(Point, f64)> =
-        context.axis.keypoints().iter().map(|k| (k.position, k.radius)).collect();
-    let boxed = |k: u32| {
-        let (centre, radius) = disks[k as usize];
-        let reach = Point::new(radius, radius);
-        Rect { min: centre - reach, max: centre + reach }
+    let axis = context.axis;
+    let disk = |k: u32| {
+        let keypoint = axis.keypoints().at(k);
+        (keypoint.position, keypoint.radius)
     };
-    let tree = BoundsTree::new(0, disks.len() as u32, boxed);
+    // Disks by themselves, and all those between two of them.
+    let alone = (0..axis.keypoints().len() as u32).map(|k| [disk(k); 2]);
+    let between = axis.paths().iter().map(|path| [disk(path.from), disk(path.to)]);
+    let runs: Vec<[(Point, f64); 2]> = between.chain(alone).collect();
+    let boxed = |k: u32| {
+        runs[k as usize].iter().fold(Rect::EMPTY, |all, &(centre, radius)| {
+            let reach = Point::new(radius, radius);
+            all.with(centre - reach).with(centre + reach)
+        })
+    };
+    let tree = BoundsTree::new(0, runs.len() as u32, boxed);
     for edge in context.n_walls..context.domain.edges().len() as u32 {
         let (start, end) = (context.domain.edge(edge).start, context.domain.end(edge));
         let pieces = ((end - start).norm() / spacing).ceil().clamp(1.0, MOST);
@@ -42,7 +50,7 @@ pub(super) fn check_cover(context: &Context, spacing: f64, defects: &mut Vec<Def
         for k in 0..pieces as u32 {
             let from = start + (end - start) * (f64::from(k) / pieces);
             let mut nearest =
-                Nearest { disks: &disks, from, enough: 2.0 * spacing, away: f64::INFINITY };
+                Nearest { runs: &runs, from, enough: 2.0 * spacing, away: f64::INFINITY };
             tree.visit(&mut nearest);
             if nearest.away > farthest.0 {
                 farthest = (nearest.away, from);
@@ -57,7 +65,7 @@ pub(super) fn check_cover(context: &Context, spacing: f64, defects: &mut Vec<Def
 
 /// Looks for the disk that is nearest to a point, or near enough.
 struct Nearest<'a> {
-    disks: &'a [(Point, f64)],
+    runs: &'a [[(Point, f64); 2]],
     from: Point,
     enough: f64,
     away: f64,
@@ -68,8 +76,19 @@ impl Visitor for Nearest<'_> {
         self.away > self.enough && bounds.distance2(self.from) < self.away * self.away
     }
 
-    fn item(&mut self, disk: u32) {
-        let (centre, radius) = self.disks[disk as usize];
-        self.away = self.away.min((centre - self.from).norm() - radius);
+    fn item(&mut self, run: u32) {
+        let [(start, radius), (end, last)] = self.runs[run as usize];
+        let (way, from) = (end - start, self.from - start);
+        let length = way.norm();
+        // The distance from the disk at s along the way is least where it neither grows nor falls.
+        let (s, growth) = if length > 0.0 {
+            let growth = (last - radius) / length;
+            let (along, beside) = (way.dot(from) / length, (way.cross(from) / length).abs());
+            let lean = growth / (1.0 - growth * growth).max(f64::MIN_POSITIVE).sqrt();
+            ((along + beside * lean).clamp(0.0, length) / length, growth * length)
+        } else {
+            (0.0, 0.0)
+        };
+        self.away = self.away.min((start + way * s - self.from).norm() - (radius + growth * s));
     }
 }

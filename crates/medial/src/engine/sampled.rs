@@ -5,6 +5,8 @@
 
 use std::ops::ControlFlow;
 
+use smallvec::SmallVec;
+
 use super::EngineError;
 use super::draft::site_record;
 use crate::axis::{
@@ -29,6 +31,9 @@ pub(super) trait Boundary {
     /// What an axis says of an element.
     fn record(&self, element: u32) -> axis::Site;
 }
+
+/// Elements around a node.
+type Around = SmallVec<[u32; 4]>;
 
 /// What is nearest to a cell.
 #[derive(Clone, Copy, Debug)]
@@ -192,7 +197,7 @@ pub(super) fn axis_of_cells(
         graph.steps.iter().map(|&step| sides_of(graph, grid, boundary, &feet, step)).collect();
     let mut number = vec![u32::MAX; boundary.len() as usize];
     let (starts, incident) = graph.incidence();
-    let lists: Vec<Vec<u32>> = (0..graph.cells.len())
+    let lists: Vec<Around> = (0..graph.cells.len())
         .map(|node| {
             let around = &incident[starts[node] as usize..starts[node + 1] as usize];
             governors(graph, grid, boundary, &feet, &sides, node as u32, around)
@@ -213,7 +218,7 @@ pub(super) fn axis_of_cells(
             2 => KeypointKind::Transition,
             _ => KeypointKind::Junction,
         };
-        let mut list: Vec<u32> = list.into_iter().map(|element| number[element as usize]).collect();
+        let mut list: Around = list.into_iter().map(|element| number[element as usize]).collect();
         let smallest = (0..list.len()).min_by_key(|&k| list[k]).unwrap_or(0);
         list.rotate_left(smallest);
         let radius = feet[node].radius;
@@ -276,9 +281,9 @@ fn governors(
     sides: &[[u32; 2]],
     node: u32,
     around: &[u32],
-) -> Vec<u32> {
+) -> Around {
     let [width, height] = grid.cell;
-    let mut list: Vec<u32> = Vec::with_capacity(around.len().max(2));
+    let mut list = Around::new();
     if around.is_empty() {
         let [x, y] = graph.cells[node as usize].map(|at| at as i32);
         list.push(feet[node as usize].element);
@@ -293,10 +298,14 @@ fn governors(
                 if from == node { (to, left, right) } else { (from, right, left) };
             let [dx, dy] = direction(graph, node, to);
             let way = Point::new(f64::from(dx) * width, f64::from(dy) * height);
-            (way.y.atan2(way.x), left, right)
+            let angle = if around.len() > 2 { way.y.atan2(way.x) } else { 0.0 };
+            (angle, left, right)
         };
-        let mut ways: Vec<(f64, u32, u32)> = around.iter().map(outwards).collect();
-        ways.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let mut ways: SmallVec<[(f64, u32, u32); 4]> = around.iter().map(outwards).collect();
+        // Two ways have the same order as one.
+        if ways.len() > 2 {
+            ways.sort_by(|a, b| a.0.total_cmp(&b.0));
+        }
         for (_, left, right) in ways {
             list.extend([right, left]);
         }

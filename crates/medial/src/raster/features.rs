@@ -170,9 +170,10 @@ impl Envelope {
                 // Where the new one becomes lower than the top one.
                 let span = f64::from(at - top.column);
                 let rise = f64::from(at * at - top.column * top.column) + (height - top.height);
-                let meet = (rise / (2.0 * span)).floor() + 1.0;
-                if meet > f64::from(top.first) {
-                    break meet.min(f64::from(i32::MAX)) as i32;
+                // Rounded down, but for what lies before the first column anyway.
+                let meet = ((rise / (2.0 * span)) as i32).saturating_add(1);
+                if meet > top.first {
+                    break meet;
                 }
                 stack.pop();
             };

@@ -74,6 +74,11 @@ pub(crate) struct Cracks {
     pub edges: Vec<CrackEdge>,
     /// The edge of each crack.
     pub edge_of: Vec<u32>,
+    /// The contour of each crack, and where along it the middle is, as a share of the longest contour in
+    /// 2^-31: what is asked for most, in one place.
+    places: Vec<[u32; 2]>,
+    /// The length of one of these shares.
+    share: f64,
     /// Numbers of the cracks at the four sides of a cell outside, which has the number of its record.
     pub sides: Vec<[u32; 4]>,
     pub n_polygons: u32,
@@ -117,6 +122,7 @@ impl Cracks {
             }
         }
         cracks.nest(bits, &areas, &lefts);
+        cracks.locate();
         cracks
     }
 
@@ -235,11 +241,25 @@ impl Cracks {
         self.sides[record as usize - 1][side as usize]
     }
 
-    /// The contour of a crack, and the length along it from its first crack, between middles.
+    /// Notes where along its contour each crack is.
+    fn locate(&mut self) {
+        let longest = self.contours.iter().map(|contour| contour.length).fold(0.0, f64::max);
+        self.share = longest * 0.5_f64.powi(31);
+        self.places.reserve_exact(self.edge_of.len());
+        for (crack, &edge) in (0..).zip(&self.edge_of) {
+            let edge = &self.edges[edge as usize];
+            let crack: u32 = crack;
+            let along = edge.along + f64::from(crack - edge.first);
+            self.places.push([edge.contour, (along / self.share) as u32]);
+        }
+    }
+
+    /// The contour of a crack, and the length along it from its first crack, between middles, within 2^-31 of
+    /// the longest contour.
     #[inline(always)]
     pub fn position(&self, crack: u32) -> (u32, f64) {
-        let edge = &self.edges[self.edge_of[crack as usize] as usize];
-        (edge.contour, edge.along + f64::from(crack - edge.first))
+        let [contour, along] = self.places[crack as usize];
+        (contour, f64::from(along) * self.share)
     }
 
     /// The edges of a contour.

@@ -79,12 +79,12 @@ impl<'m> Skeleton<'m> {
         watch.check_now()?;
         let mut kept = Bits::new(bits.columns(), bits.rows());
         medial.iter().for_each(|cell| kept.set(cell.x as i32, cell.y as i32));
-        let distance = |x: i32, y: i32| features.squared(x, y, aspect).sqrt();
+        let squared = |x: i32, y: i32| features.squared(x, y, aspect);
         let mut cells = bits.clone();
-        thinning::thin(&mut cells, &kept, distance);
+        thinning::thin(&mut cells, &kept, squared);
         watch.check_now()?;
         if residual.is_some() {
-            thinning::thin_further(&mut cells, &medial, distance);
+            thinning::thin_further(&mut cells, &medial, squared);
         } else {
             let lost = uncovered(mask, &features, &cells);
             if lost.count() > 0 {
@@ -92,7 +92,7 @@ impl<'m> Skeleton<'m> {
                     lost.ones(y).for_each(|x| kept.set(x as i32, y as i32));
                 }
                 cells = bits.clone();
-                thinning::thin(&mut cells, &kept, distance);
+                thinning::thin(&mut cells, &kept, squared);
             }
         }
         watch.check_now()?;

@@ -5,7 +5,7 @@ use super::medial_cells::MedialCell;
 use crate::raster::{Bits, SIMPLE, WINDOW_RING};
 
 /// Steps of the distance within which cells go in the order in which they became removable.
-const STEPS_PER_CELL: f64 = 4.0;
+const STEPS_PER_CELL: f32 = 4.0;
 
 /// The eight neighbours of a cell, by their bits in a window.
 const NEIGHBOURS: [(u16, i32, i32); 8] = [
@@ -19,27 +19,37 @@ const NEIGHBOURS: [(u16, i32, i32); 8] = [
     (1 << 8, 1, 1),
 ];
 
+/// A cell as its column and row.
+fn packed(x: i32, y: i32) -> u32 {
+    (y as u32) << 16 | x as u32
+}
+
+fn unpacked(cell: u32) -> (i32, i32) {
+    ((cell & 0xffff) as i32, (cell >> 16) as i32)
+}
+
 /// Takes from a shape all cells that can go without changing components and holes, nearest to the boundary
-/// first, but those to be kept.
+/// first, but those to be kept. Squares of distances are given, in widths of a cell.
 ///
 /// Every cell that was left over can go no more.
-pub(super) fn thin(shape: &mut Bits, kept: &Bits, distance: impl Fn(i32, i32) -> f64) {
-    // Cells that wait for their turn, by distance.
-    let mut queues: Vec<Vec<(i32, i32)>> = Vec::new();
+pub(super) fn thin(shape: &mut Bits, kept: &Bits, squared: impl Fn(i32, i32) -> f64) {
+    // Cells that wait for their turn, by distance. Each comes in with the first of its neighbours that
+    // goes, and is asked once it is its turn: then those nearer to the boundary are gone.
+    let mut queues: Vec<Vec<u32>> = Vec::new();
     let mut waits = Bits::new(shape.columns(), shape.rows());
-    let level = |x, y| (distance(x, y) * STEPS_PER_CELL) as usize;
-    let push = |queues: &mut Vec<Vec<(i32, i32)>>, at: usize, cell| {
+    let level = |x, y| ((squared(x, y) as f32).sqrt() * STEPS_PER_CELL) as usize;
+    let push = |queues: &mut Vec<Vec<u32>>, at: usize, x, y| {
         if queues.len() <= at {
             queues.resize_with(at + 1, Vec::new);
         }
-        queues[at].push(cell);
+        queues[at].push(packed(x, y));
     };
     for y in 0..shape.rows() as i32 {
         for (from, to) in shape.runs(y as u32) {
             for x in from as i32..to as i32 {
-                if !kept.get(x, y) && SIMPLE[shape.window(x, y) as usize] {
+                if shape.window(x, y) & WINDOW_RING != WINDOW_RING && !kept.get(x, y) {
                     waits.set(x, y);
-                    push(&mut queues, level(x, y), (x, y));
+                    push(&mut queues, level(x, y), x, y);
                 }
             }
         }
@@ -48,8 +58,9 @@ pub(super) fn thin(shape: &mut Bits, kept: &Bits, distance: impl Fn(i32, i32) ->
     while now < queues.len() {
         // Cells that come in meanwhile are behind those that are here.
         let mut next = 0;
-        while let Some(&(x, y)) = queues[now].get(next) {
+        while let Some(&cell) = queues[now].get(next) {
             next += 1;
+            let (x, y) = unpacked(cell);
             waits.clear(x, y);
             let window = shape.window(x, y);
             if !SIMPLE[window as usize] {
@@ -58,10 +69,10 @@ pub(super) fn thin(shape: &mut Bits, kept: &Bits, distance: impl Fn(i32, i32) ->
             shape.clear(x, y);
             let free = window & WINDOW_RING & !kept.window(x, y) & !waits.window(x, y);
             for (bit, dx, dy) in NEIGHBOURS {
-                let (u, v) = (x + dx, y + dy);
-                if free & bit != 0 && SIMPLE[shape.window(u, v) as usize] {
+                if free & bit != 0 {
+                    let (u, v) = (x + dx, y + dy);
                     waits.set(u, v);
-                    push(&mut queues, level(u, v).max(now), (u, v));
+                    push(&mut queues, level(u, v).max(now), u, v);
                 }
             }
         }
@@ -71,40 +82,47 @@ pub(super) fn thin(shape: &mut Bits, kept: &Bits, distance: impl Fn(i32, i32) ->
 }
 
 /// Takes from what is left those cells that are neither ends nor needed to hold the rest together, the worst
-/// first, until none is left.
+/// first: those of the least residual, then of the least distance.
 pub(super) fn thin_further(
     shape: &mut Bits,
     medial: &[MedialCell],
-    distance: impl Fn(i32, i32) -> f64,
+    squared: impl Fn(i32, i32) -> f64,
 ) {
-    let mut cells: Vec<(f32, f32, i32, i32)> = Vec::new();
-    let mut medial = medial.iter().peekable();
+    // What cannot go may be able to once a neighbour is gone; it is asked again in the next round.
+    let mut round: Vec<u32> = Vec::new();
     for y in 0..shape.rows() {
-        for x in shape.ones(y) {
-            let is_before = |cell: &&MedialCell| (cell.y, cell.x) < (y, x);
-            while medial.next_if(is_before).is_some() {}
-            let own = medial.peek().filter(|cell| (cell.y, cell.x) == (y, x));
-            let residual = own.map_or(0.0, |cell| cell.residual);
-            let (x, y) = (x as i32, y as i32);
-            cells.push((residual, distance(x, y) as f32, y, x));
-        }
+        let may_go = |x: &u32| can_go(shape.window(*x as i32, y as i32));
+        round.extend(shape.ones(y).filter(may_go).map(|x| packed(x as i32, y as i32)));
     }
-    cells.sort_unstable_by(|a, b| {
-        a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)).then((a.2, a.3).cmp(&(b.2, b.3)))
-    });
-    // What cannot go may be able to once what comes later is gone.
-    loop {
-        let before = cells.len();
-        cells.retain(|&(_, _, y, x)| {
-            let goes = can_go(shape.window(x, y));
-            if goes {
-                shape.clear(x, y);
+    let residual = |cell: u32| {
+        let place = |medial: &MedialCell| packed(medial.x as i32, medial.y as i32);
+        medial.binary_search_by_key(&cell, place).map_or(0.0, |found| medial[found].residual)
+    };
+    let quality = |cell: u32| {
+        let (x, y) = unpacked(cell);
+        // Neither is negative, so their bits are in their order.
+        u64::from(residual(cell).to_bits()) << 32 | u64::from((squared(x, y) as f32).to_bits())
+    };
+    while !round.is_empty() {
+        round.sort_by_cached_key(|&cell| (quality(cell), cell));
+        let mut again = Vec::new();
+        for cell in round {
+            let (x, y) = unpacked(cell);
+            let window = shape.window(x, y);
+            if !shape.get(x, y) || !can_go(window) {
+                continue;
             }
-            !goes
-        });
-        if cells.len() == before {
-            break;
+            shape.clear(x, y);
+            let left = NEIGHBOURS.into_iter().filter(|(bit, ..)| window & bit != 0);
+            again.extend(left.map(|(_, dx, dy)| packed(x + dx, y + dy)));
         }
+        again.retain(|&cell| {
+            let (x, y) = unpacked(cell);
+            shape.get(x, y) && can_go(shape.window(x, y))
+        });
+        again.sort_unstable();
+        again.dedup();
+        round = again;
     }
 }
 
