@@ -82,21 +82,27 @@ impl<'a> File<'a> {
             return Err(Error::Syntax { line: 1, column: 1, why });
         }
         let mut file = Self { units: None, blocks: HashMap::new(), entities: Vec::new() };
+        let mut has_entities = false;
         let mut rest = groups;
         while let Some(start) = rest.iter().position(|group| group.is(0, "SECTION")) {
             let section = &rest[start + 1..];
-            let end = section.iter().position(|g| g.is(0, "ENDSEC")).unwrap_or(section.len());
-            let (section, after) = section.split_at(end);
+            let end = section.iter().position(|g| g.is(0, "ENDSEC"));
+            let (section, after) = section.split_at(end.ok_or_else(|| cut_off(groups))?);
             rest = after;
             let Some((name, content)) = section.split_first() else { continue };
             match name.text().as_ref() {
                 "HEADER" => file.header(content),
                 "BLOCKS" => file.blocks(content),
-                "ENTITIES" => file.entities = entities(content),
+                "ENTITIES" => {
+                    file.entities = entities(content);
+                    has_entities = true;
+                }
                 _ => {}
             }
         }
-        Ok(file)
+        // Files made by hand often end behind their last section.
+        let has_end = groups.last().is_some_and(|group| group.is(0, "EOF"));
+        if has_end || has_entities { Ok(file) } else { Err(cut_off(groups)) }
     }
 
     fn header(&mut self, groups: &[Group]) {
@@ -122,6 +128,12 @@ impl<'a> File<'a> {
             }
         }
     }
+}
+
+/// The error that a file ends before its end.
+fn cut_off(groups: &[Group]) -> Error {
+    let why = "the file is cut off behind this; save or copy it again";
+    groups.last().map_or(Error::Empty, |last| last.wrong(why))
 }
 
 /// The entities in a list of groups, with the parts that follow some of them.
