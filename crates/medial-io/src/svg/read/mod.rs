@@ -23,7 +23,7 @@ pub use text::Fonts;
 use crate::curves::{Affine, Contour, flatten};
 use crate::json::quoted;
 use crate::text::syntax_at;
-use crate::{Error, Feature, FeatureError, Json, Layer, Note, ReadOptions};
+use crate::{Error, Feature, FeatureError, Json, Layer, Note, ReadOptions, gzip};
 use kurbo::{Cap, Join};
 use medial::domain::FillRule;
 use medial::geom::Point;
@@ -93,7 +93,11 @@ pub fn read<'a>(text: &str, options: &ReadOptions) -> Result<Layer<'a>, Error> {
 /// Whether a drawing may have text, for which fonts are needed.
 #[must_use]
 pub fn has_text(bytes: &[u8]) -> bool {
-    bytes.windows(5).any(|window| window == b"text>" || window == b"<text" || window == b":text")
+    // Nobody knows what is packed.
+    bytes.starts_with(&gzip::MAGIC)
+        || bytes
+            .windows(5)
+            .any(|window| window == b"text>" || window == b"<text" || window == b":text")
 }
 
 /// What is to become a feature.
