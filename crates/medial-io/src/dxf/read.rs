@@ -14,7 +14,7 @@ use crate::json::{quoted, whole};
 use crate::{Error, Feature, FeatureError, Json, Layer, Note, ReadOptions};
 use medial::domain::FillRule;
 use medial::geom::Point;
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 /// Deepest nesting of blocks.
 const DEPTH: usize = 32;
@@ -56,7 +56,17 @@ pub fn read<'a>(bytes: &[u8], options: &ReadOptions) -> Result<Layer<'a>, Error>
     for entity in &file.entities {
         drawing.add(&file, *entity, &top, &mut n_drawn);
     }
-    let items = drawing.items(file.units, options.layer.as_deref());
+    let only = options.layer.as_deref();
+    if let Some(only) = only {
+        let layers = drawing.layers();
+        if !layers.contains(only) {
+            let names: Vec<String> = layers.iter().map(|name| format!("`{name}`")).collect();
+            let names = if names.is_empty() { "none".to_owned() } else { names.join(", ") };
+            let why = format!("there is nothing on a layer `{only}`; of layers there are {names}");
+            return Err(Error::Layer { why });
+        }
+    }
+    let items = drawing.items(file.units, only);
     let tolerance = options.tolerance;
     let len = Some(items.len());
     let features = (0..).zip(items).map(move |(index, item)| item.feature(index, tolerance));
@@ -325,6 +335,12 @@ impl Drawing {
             }
         }
         Ok(())
+    }
+
+    /// The layers on which something is.
+    fn layers(&self) -> BTreeSet<String> {
+        let lines = self.closed.iter().chain(&self.open).map(|line| line.source.layer.clone());
+        lines.chain(self.items.iter().map(|(_, item)| item.layer())).collect()
     }
 
     /// All that is to become features, in their order; of one layer if it is named.

@@ -206,3 +206,15 @@ fn a_file_that_is_cut_off_is_refused_wherever_that_is() {
     let without_end = lines[..n - 2].concat();
     assert_eq!(read(without_end.as_bytes(), &options).unwrap().count(), 2);
 }
+
+#[test]
+fn a_layer_that_is_not_there_is_refused() {
+    let text = file("0=CIRCLE 8=a 10=0 20=0 40=1 0=TEXT 8=b 1=Hi");
+    let of = |layer: &str| {
+        let options = ReadOptions { layer: Some(layer.to_owned()), ..ReadOptions::default() };
+        read(text.as_bytes(), &options).map(Iterator::count).map_err(|error| error.to_string())
+    };
+    assert_eq!((of("a"), of("b")), (Ok(1), Ok(1)));
+    let told = "there is nothing on a layer `c`; of layers there are `a`, `b`";
+    assert_eq!(of("c"), Err(told.to_owned()));
+}
