@@ -172,8 +172,8 @@ fn told(repair: Repair) -> String {
         Repair::RepeatedPoint => "repeated vertices are dropped",
         Repair::StraightCorner => "straight corners are merged",
         Repair::Spike => "spikes are removed",
-        Repair::DegenerateHole => "the hole encloses no area and is dropped",
-        Repair::EmptyPolygon => "the polygon has no points and is left out",
+        Repair::DegenerateHole => "the ring encloses no area and is dropped",
+        Repair::EmptyPolygon => "the polygon encloses nothing and is left out",
         Repair::Reversed => "the ring is turned round",
         Repair::Regrouped => "the ring is an outer ring or a hole by its depth",
         Repair::SplitEdge => "edges are split where corners lie on them",
@@ -221,6 +221,43 @@ mod tests {
         for repair in Repair::ALL {
             assert!(formats.contains(&format!("`{repair}`")), "{repair}");
         }
+    }
+
+    /// Calls `visit` with the sources in a folder.
+    fn each_source(folder: &std::path::Path, visit: &mut impl FnMut(&str)) {
+        for entry in std::fs::read_dir(folder).unwrap() {
+            let path = entry.unwrap().path();
+            if path.is_dir() {
+                each_source(&path, visit);
+            } else {
+                visit(&std::fs::read_to_string(path).unwrap());
+            }
+        }
+    }
+
+    #[test]
+    fn the_documentation_lists_every_reason() {
+        let formats = include_str!("../../../docs/formats.md");
+        let reports = formats.split_once("## Reports").unwrap().1;
+        let reports = reports.split_once("## Timings").unwrap().0;
+        let mut n = 0;
+        each_source(&std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("src"), &mut |source| {
+            let refusals = source.split("refused(\"").skip(1);
+            let codes = source.split("Error::").skip(1).filter_map(|rest| {
+                let (_, rest) = rest.lines().next()?.split_once("=> \"")?;
+                Some(rest)
+            });
+            for found in refusals.chain(codes) {
+                let code = found.split('"').next().unwrap_or_default();
+                let is_code = !code.is_empty()
+                    && code.bytes().all(|byte| byte == b'_' || byte.is_ascii_lowercase());
+                if is_code {
+                    assert!(reports.contains(&format!("`{code}`")), "{code}");
+                    n += 1;
+                }
+            }
+        });
+        assert!(n > 10, "{n}");
     }
 
     #[test]

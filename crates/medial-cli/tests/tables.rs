@@ -95,7 +95,8 @@ fn what_a_shapefile_cannot_hold_leaves_no_files() {
     let folder = tempfile::tempdir().unwrap();
     let plus = fixture("shapes/plus_of_unit_squares.wkt").display().to_string();
     let file = path(&folder, "plus.shp");
-    let run = medial(&["axis", &plus, "--keypoints", "-o", &file]);
+    assert_eq!(medial(&["axis", &plus, "--keypoints", "-o", &file]).status, Some(2));
+    let run = medial(&["voronoi", &plus, "-o", &file]);
     assert_eq!(run.status, Some(1));
     assert!(run.errors.contains("one kind of geometry"), "{}", run.errors);
     assert!(names(folder.path()).is_empty(), "{:?}", names(folder.path()));
@@ -103,6 +104,17 @@ fn what_a_shapefile_cannot_hold_leaves_no_files() {
     let run = medial(&["axis", &plus, "-o", &file]);
     assert_eq!(run.status, Some(0));
     assert_eq!(names(folder.path()), ["plus.cpg", "plus.dbf", "plus.shp", "plus.shx"]);
+}
+
+#[test]
+fn a_feature_that_is_pruned_to_a_point_is_no_reason_to_refuse_a_shapefile() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = path(&folder, "pruned.shp");
+    let input = "POLYGON ((0 0, 4 0, 4 4, 0 4, 0 0))\nPOLYGON ((9 0, 29 0, 29 4, 9 4, 9 0))\n";
+    let run = medial_with(&["prune", "-", "--max-error", "3", "-o", &file], input);
+    assert_eq!(run.status, Some(0), "{}", run.errors);
+    assert!(run.errors.contains("1 of 2 are points"), "{}", run.errors);
+    assert_eq!(names(folder.path()), ["pruned.cpg", "pruned.dbf", "pruned.shp", "pruned.shx"]);
 }
 
 #[test]

@@ -180,23 +180,16 @@ impl Crs {
     /// Whether coordinates are degrees of longitude and latitude, as far as that is known.
     #[must_use]
     pub fn is_geographic(&self) -> bool {
-        #[derive(Deserialize)]
-        struct Head {
-            r#type: String,
-        }
         if let Some(projjson) = &self.projjson {
-            return serde_json::from_str::<Head>(projjson.get())
-                .is_ok_and(|head| head.r#type == "GeographicCRS");
+            let found = serde_json::from_str::<Value>(projjson.get()).ok();
+            return found.as_ref().is_some_and(is_geographic_object);
         }
         self.wkt().map_or_else(
             || {
                 self.authority()
                     .is_some_and(|(name, code)| name == "OGC" && code.starts_with("CRS8"))
             },
-            |wkt| {
-                let start = wkt.trim_start().get(..7).unwrap_or_default().to_ascii_uppercase();
-                start.starts_with("GEOGCS") || start == "GEOGCRS" || start == "GEODCRS"
-            },
+            |wkt| is_geographic_text(&wkt),
         )
     }
 
@@ -268,6 +261,26 @@ fn identifier(wkt: &str) -> Option<(String, String)> {
     let mut parts = inner.split(',').map(|part| part.trim().trim_matches('"'));
     let (authority, code) = (parts.next()?, parts.next()?);
     (!code.is_empty()).then(|| (authority.to_ascii_uppercase(), code.to_owned()))
+}
+
+/// Whether well-known text is of degrees: of a compound system its first part counts, and what a projected
+/// one is based on comes behind its own word.
+fn is_geographic_text(wkt: &str) -> bool {
+    let wkt = wkt.to_ascii_uppercase();
+    let first = |words: &[&str]| words.iter().filter_map(|word| wkt.find(word)).min();
+    let degrees = first(&["GEOGCS", "GEOGCRS", "GEODCRS", "GEOGRAPHICCRS", "GEODETICCRS"]);
+    let others = first(&["PROJCS", "PROJCRS", "PROJECTEDCRS", "GEOCCS", "LOCAL_CS", "ENGCRS"]);
+    degrees.is_some_and(|at| others.is_none_or(|other| at < other))
+}
+
+/// The same of PROJJSON.
+fn is_geographic_object(crs: &Value) -> bool {
+    match crs["type"].as_str() {
+        Some("GeographicCRS") => true,
+        Some("CompoundCRS") => is_geographic_object(&crs["components"][0]),
+        Some("BoundCRS") => is_geographic_object(&crs["source_crs"]),
+        _ => false,
+    }
 }
 
 /// The code at EPSG of a name as ESRI writes it, of the most common ones.
@@ -353,6 +366,19 @@ mod tests {
         assert!(Crs::of_wkt(second).is_geographic());
         assert!(Crs::of_wkt(second).first_wkt().is_some_and(|wkt| wkt.starts_with("GEOGCS")));
         assert!(Crs::of_wkt("PROJCRS[\"mine\"]").first_wkt().is_none());
+    }
+
+    #[test]
+    fn degrees_are_found_in_compound_systems() {
+        let of = |wkt: &str| Crs::of_wkt(wkt).is_geographic();
+        assert!(of("COMPD_CS[\"a\",GEOGCS[\"b\"],VERT_CS[\"c\"]]"));
+        assert!(of("BOUNDCRS[SOURCECRS[GEOGCRS[\"b\"]],TARGETCRS[GEOGCRS[\"c\"]]]"));
+        assert!(!of("COMPD_CS[\"a\",PROJCS[\"b\",GEOGCS[\"c\"]],VERT_CS[\"d\"]]"));
+        assert!(!of("LOCAL_CS[\"a\"]"));
+        let of = |text: &str| Crs::of_projjson(json(text)).is_geographic();
+        assert!(of(r#"{"type":"CompoundCRS","components":[{"type":"GeographicCRS"},{}]}"#));
+        assert!(!of(r#"{"type":"CompoundCRS","components":[{"type":"ProjectedCRS"},{}]}"#));
+        assert!(of(r#"{"type":"BoundCRS","source_crs":{"type":"GeographicCRS"}}"#));
     }
 
     #[test]

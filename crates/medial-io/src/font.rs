@@ -34,7 +34,7 @@ pub fn read<'a>(bytes: &[u8], options: &ReadOptions) -> Result<Layer<'a>, Error>
         let font = face(bytes, options.layer.as_deref())?;
         let glyphs = match &options.text {
             Some(text) => laid_out(&font, text)?,
-            None => all(&font),
+            None => all(&font)?,
         };
         Ok::<_, Error>((glyphs, font.axes().iter().next().is_some()))
     })??;
@@ -114,7 +114,7 @@ fn face<'a>(bytes: &'a [u8], layer: Option<&str>) -> Result<FontRef<'a>, Error> 
 }
 
 /// All glyphs that have an outline.
-fn all(font: &FontRef) -> Vec<Result<Glyph, Error>> {
+fn all(font: &FontRef) -> Result<Vec<Result<Glyph, Error>>, Error> {
     let mut characters: HashMap<GlyphId, char> = HashMap::new();
     for (code, glyph) in font.charmap().mappings() {
         if let Some(c) = char::from_u32(code) {
@@ -137,7 +137,11 @@ fn all(font: &FontRef) -> Vec<Result<Glyph, Error>> {
         }
         x += f64::from(advances.advance_width(id).unwrap_or(0.0));
     }
-    glyphs
+    if glyphs.is_empty() {
+        let why = "it has no glyph with an outline; it is cut off, or of pictures".to_owned();
+        return Err(Error::Value { place: "the font".to_owned(), why });
+    }
+    Ok(glyphs)
 }
 
 /// The glyphs of a text with an outline.
@@ -265,6 +269,16 @@ mod tests {
         for bytes in [&b"OTTO"[..], b"\0\x01\0\0\0\xff", b"ttcf\0\x01", b"nothing"] {
             let error = read(bytes, &ReadOptions::default()).err().unwrap();
             assert!(error.to_string().starts_with("the font: "), "{error}");
+        }
+    }
+
+    #[test]
+    fn a_font_that_is_cut_off_is_not_taken_for_an_empty_one() {
+        let font = include_bytes!("../../../fixtures/drawings/two_letters.ttf");
+        for end in 12..font.len() {
+            if let Ok(layer) = read(&font[..end], &ReadOptions::default()) {
+                assert!(layer.count() > 0, "{end} bytes");
+            }
         }
     }
 }

@@ -1,5 +1,5 @@
 use crate::json::Head;
-use crate::{Error, dxf, font, maxis};
+use crate::{Error, dxf, font, gzip, maxis};
 use std::fmt;
 use std::path::Path;
 use std::str::FromStr;
@@ -144,6 +144,17 @@ impl Format {
         if dxf::begins(bytes) {
             return Ok(Content::Polygons(Self::Dxf));
         }
+        // Packed drawings are usual, nothing else is.
+        if bytes.starts_with(&gzip::MAGIC) {
+            return Ok(Content::Polygons(Self::Svg));
+        }
+        let packed: [(&[u8], &str); 2] = [
+            (b"PK\x03\x04", "it is a ZIP archive; unpack it, and name a file in it"),
+            (b"wOF", "it is a font packed for the web (WOFF); turn it into TrueType or OpenType"),
+        ];
+        if let Some((_, why)) = packed.iter().find(|(start, _)| bytes.starts_with(start)) {
+            return Err(Error::File { why: (*why).to_owned() });
+        }
         if let [0 | 1, ..] = bytes {
             return Ok(Content::Polygons(Self::Wkb));
         }
@@ -264,5 +275,10 @@ mod tests {
         assert_eq!(of("0103"), Some(Content::Polygons(Format::Wkb)));
         assert_eq!(Format::of_content(b"\x8dMAXIS").ok(), Some(Content::CompressedAxes));
         assert!(matches!(Format::of_content(b" \n"), Err(Error::Empty)));
+        let packed = [0x1f, 0x8b, 8];
+        assert_eq!(Format::of_content(&packed).ok(), Some(Content::Polygons(Format::Svg)));
+        let told = |bytes: &[u8]| Format::of_content(bytes).unwrap_err().to_string();
+        assert!(told(b"wOF2\0\x01").contains("WOFF"));
+        assert!(told(b"PK\x03\x04\x14").contains("ZIP"));
     }
 }

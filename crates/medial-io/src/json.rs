@@ -38,6 +38,8 @@ fn not_finite(part: &str, byte: usize, why: &str) -> Option<String> {
         "the number is out of range"
     } else if ["nan", "inf", "infinity"].contains(&token.to_ascii_lowercase().as_str()) {
         "a coordinate is not finite, and no JSON"
+    } else if token == "null" {
+        "a coordinate is nothing, or not finite"
     } else {
         return None;
     };
@@ -63,6 +65,36 @@ fn not_finite(part: &str, byte: usize, why: &str) -> Option<String> {
         }
         _ => None,
     }
+}
+
+/// JSON with `null` for the infinities, and numbers that are none, as many programs write them; `None` if
+/// there are none.
+pub(crate) fn without_infinities(text: &str) -> Option<String> {
+    let bytes = text.as_bytes();
+    let (mut finite, mut copied) = (String::new(), 0);
+    let mut at = 0;
+    while let Some(&byte) = bytes.get(at) {
+        let start = at;
+        at += 1;
+        if byte == b'"' {
+            // To the end of the string.
+            while let Some(&byte) = bytes.get(at) {
+                at += if byte == b'\\' { 2 } else { 1 };
+                if byte == b'"' {
+                    break;
+                }
+            }
+        } else if byte.is_ascii_alphabetic() {
+            let rest = bytes[start..].iter().take_while(|byte| byte.is_ascii_alphabetic());
+            at = start + rest.count();
+            if ["nan", "inf", "infinity"].contains(&text[start..at].to_ascii_lowercase().as_str()) {
+                finite.push_str(text[copied..start].trim_end_matches('-'));
+                finite.push_str("null");
+                copied = at;
+            }
+        }
+    }
+    (copied > 0).then(|| finite + &text[copied..])
 }
 
 /// The `type` of a JSON object.

@@ -29,6 +29,7 @@ mod curves;
 mod error;
 mod feature;
 mod format;
+mod gzip;
 mod json;
 mod number;
 mod open;
@@ -93,7 +94,7 @@ pub fn read_with<'a>(
     options: &ReadOptions,
 ) -> Result<Layer<'a>, Error> {
     match format {
-        Format::Svg => svg::read(text(bytes)?, options),
+        Format::Svg => svg::read(text(&gzip::unpacked(bytes)?)?, options),
         Format::Dxf => dxf::read(bytes, options),
         Format::Ttf => font::read(bytes, options),
         Format::Png | Format::Tiff => image::read(format, bytes, options),

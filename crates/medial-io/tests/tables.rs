@@ -162,8 +162,11 @@ fn projjson_passes_through_parquet() {
 fn a_shapefile_has_one_kind_of_geometry() {
     let folder = tempfile::tempdir().unwrap();
     let path = file(&folder, Format::Shp);
-    let error = write(Format::Shp, &path, POINT_AND_LINE, None).unwrap_err();
-    assert!(error.to_string().contains("Point and LineString; leave out"), "{error}");
+    let written = write(Format::Shp, &path, POINT_AND_LINE, None).unwrap();
+    assert!(written.warnings.iter().any(|warning| warning.contains("1 of 2 are points")));
+    let mixed = [POINT_AND_LINE, POLYGONS].concat();
+    let error = write(Format::Shp, &path, &mixed, None).unwrap_err();
+    assert!(error.to_string().contains("Point and LineString and Polygon and "), "{error}");
     for format in [Format::Gpkg, Format::Fgb, Format::Parquet] {
         write(format, &file(&folder, format), POINT_AND_LINE, None).unwrap();
         let found: Vec<_> = read(format, &file(&folder, format)).map(Result::unwrap).collect();

@@ -335,6 +335,36 @@ fn a_ring_given_twice_counts_once() {
 }
 
 #[test]
+fn all_that_is_found_of_a_crossing_ring_is_reported() {
+    // A bow-tie with a repeated vertex, a straight corner and a spike, and a hole on one line.
+    let bow_tie = ring(&[
+        (0.0, 0.0),
+        (4.0, 4.0),
+        (4.0, 4.0),
+        (4.0, 2.0),
+        (4.0, 0.0),
+        (5.0, 0.0),
+        (4.0, 0.0),
+        (0.0, 4.0),
+    ]);
+    let line = ring(&[(1.0, 1.5), (1.0, 2.0), (1.0, 2.5)]);
+    let far = ring(&[(10.0, 0.0), (11.0, 0.0), (11.0, 1.0)]);
+    let nothing = ring(&[(20.0, 0.0), (21.0, 0.0)]);
+    let domain = repaired(&vec![vec![bow_tie, line], vec![far.clone()], vec![far], vec![nothing]]);
+    let found = |repair: Repair| -> Vec<_> {
+        let entries = domain.report().entries().iter().filter(|entry| entry.repair == repair);
+        entries.map(|entry| (entry.polygon, entry.ring, entry.indices.clone())).collect()
+    };
+    assert_eq!(found(Repair::RepeatedPoint), [(0, 0, vec![2, 6])]);
+    assert_eq!(found(Repair::StraightCorner), [(0, 0, vec![3])]);
+    assert_eq!(found(Repair::Spike), [(0, 0, vec![5])]);
+    assert_eq!(found(Repair::Crossing), [(0, 0, vec![0, 6])]);
+    assert_eq!(found(Repair::DegenerateHole), [(0, 1, vec![]), (3, 0, vec![])]);
+    assert_eq!(found(Repair::DuplicateRing), [(2, 0, vec![])]);
+    assert_eq!(found(Repair::EmptyPolygon), [(3, 0, vec![])]);
+}
+
+#[test]
 fn rings_nested_otherwise_get_their_place() {
     let outer = ring(&[(0.0, 0.0), (9.0, 0.0), (9.0, 9.0), (0.0, 9.0)]);
     let hole = ring(&[(2.0, 2.0), (4.0, 2.0), (4.0, 4.0), (2.0, 4.0)]);

@@ -268,6 +268,9 @@ fn output_format(args: &AxisArgs) -> Result<Format, Failure> {
     if args.keypoints && format == Format::Csv {
         return usage("--keypoints is not for csv, which has a row for each path".to_owned());
     }
+    if args.keypoints && format == Format::Shp {
+        return usage("--keypoints is not for shp, which holds one kind of geometry".to_owned());
+    }
     if !args.measures.is_empty()
         && !matches!(
             format.encoding(),

@@ -14,7 +14,7 @@ use crate::json::{quoted, whole};
 use crate::{Error, Feature, FeatureError, Json, Layer, Note, ReadOptions};
 use medial::domain::FillRule;
 use medial::geom::Point;
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 /// Deepest nesting of blocks.
 const DEPTH: usize = 32;
@@ -56,7 +56,17 @@ pub fn read<'a>(bytes: &[u8], options: &ReadOptions) -> Result<Layer<'a>, Error>
     for entity in &file.entities {
         drawing.add(&file, *entity, &top, &mut n_drawn);
     }
-    let items = drawing.items(file.units, options.layer.as_deref());
+    let only = options.layer.as_deref();
+    if let Some(only) = only {
+        let layers = drawing.layers();
+        if !layers.contains(only) {
+            let names: Vec<String> = layers.iter().map(|name| format!("`{name}`")).collect();
+            let names = if names.is_empty() { "none".to_owned() } else { names.join(", ") };
+            let why = format!("there is nothing on a layer `{only}`; of layers there are {names}");
+            return Err(Error::Layer { why });
+        }
+    }
+    let items = drawing.items(file.units, only);
     let tolerance = options.tolerance;
     let len = Some(items.len());
     let features = (0..).zip(items).map(move |(index, item)| item.feature(index, tolerance));
@@ -82,21 +92,27 @@ impl<'a> File<'a> {
             return Err(Error::Syntax { line: 1, column: 1, why });
         }
         let mut file = Self { units: None, blocks: HashMap::new(), entities: Vec::new() };
+        let mut has_entities = false;
         let mut rest = groups;
         while let Some(start) = rest.iter().position(|group| group.is(0, "SECTION")) {
             let section = &rest[start + 1..];
-            let end = section.iter().position(|g| g.is(0, "ENDSEC")).unwrap_or(section.len());
-            let (section, after) = section.split_at(end);
+            let end = section.iter().position(|g| g.is(0, "ENDSEC"));
+            let (section, after) = section.split_at(end.ok_or_else(|| cut_off(groups))?);
             rest = after;
             let Some((name, content)) = section.split_first() else { continue };
             match name.text().as_ref() {
                 "HEADER" => file.header(content),
                 "BLOCKS" => file.blocks(content),
-                "ENTITIES" => file.entities = entities(content),
+                "ENTITIES" => {
+                    file.entities = entities(content);
+                    has_entities = true;
+                }
                 _ => {}
             }
         }
-        Ok(file)
+        // Files made by hand often end behind their last section.
+        let has_end = groups.last().is_some_and(|group| group.is(0, "EOF"));
+        if has_end || has_entities { Ok(file) } else { Err(cut_off(groups)) }
     }
 
     fn header(&mut self, groups: &[Group]) {
@@ -122,6 +138,12 @@ impl<'a> File<'a> {
             }
         }
     }
+}
+
+/// The error that a file ends before its end.
+fn cut_off(groups: &[Group]) -> Error {
+    let why = "the file is cut off behind this; save or copy it again";
+    groups.last().map_or(Error::Empty, |last| last.wrong(why))
 }
 
 /// The entities in a list of groups, with the parts that follow some of them.
@@ -313,6 +335,12 @@ impl Drawing {
             }
         }
         Ok(())
+    }
+
+    /// The layers on which something is.
+    fn layers(&self) -> BTreeSet<String> {
+        let lines = self.closed.iter().chain(&self.open).map(|line| line.source.layer.clone());
+        lines.chain(self.items.iter().map(|(_, item)| item.layer())).collect()
     }
 
     /// All that is to become features, in their order; of one layer if it is named.

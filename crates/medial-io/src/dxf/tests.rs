@@ -190,3 +190,31 @@ fn what_is_written_reads_back() {
     assert_eq!(read[0].polygons, [[ring]]);
     assert_eq!(read[0].id.as_ref().unwrap().get(), "\"100\"");
 }
+
+#[test]
+fn a_file_that_is_cut_off_is_refused_wherever_that_is() {
+    let whole = file("0=CIRCLE 8=a 10=0 20=0 40=1 0=CIRCLE 8=b 10=9 20=0 40=1");
+    let options = ReadOptions::default();
+    // Between two groups, as elsewhere a value is missing.
+    let lines: Vec<&str> = whole.split_inclusive('\n').collect();
+    let n = lines.len();
+    for end in (4..n - 2).step_by(2) {
+        let text = lines[..end].concat();
+        let error = read(text.as_bytes(), &options).err().unwrap().to_string();
+        assert!(error.contains("cut off"), "{end}: {error}");
+    }
+    let without_end = lines[..n - 2].concat();
+    assert_eq!(read(without_end.as_bytes(), &options).unwrap().count(), 2);
+}
+
+#[test]
+fn a_layer_that_is_not_there_is_refused() {
+    let text = file("0=CIRCLE 8=a 10=0 20=0 40=1 0=TEXT 8=b 1=Hi");
+    let of = |layer: &str| {
+        let options = ReadOptions { layer: Some(layer.to_owned()), ..ReadOptions::default() };
+        read(text.as_bytes(), &options).map(Iterator::count).map_err(|error| error.to_string())
+    };
+    assert_eq!((of("a"), of("b")), (Ok(1), Ok(1)));
+    let told = "there is nothing on a layer `c`; of layers there are `a`, `b`";
+    assert_eq!(of("c"), Err(told.to_owned()));
+}

@@ -1,10 +1,12 @@
 use super::quick::{self, Collection, Polygonal};
-use crate::json::{Members, Ring, parse, points};
+use crate::json::{Members, Ring, parse, points, without_infinities};
 use crate::text::{lines, offset, syntax_at};
-use crate::{Crs, Error, Feature, FeatureError, Json, Layer};
+use crate::{Crs, Error, Feature, FeatureError, Json, Layer, Part};
 use serde::Deserialize;
 use serde_json::value::RawValue;
 use std::borrow::Cow;
+use std::ops::Range;
+use std::sync::Arc;
 
 /// Deepest nesting of geometry collections; protects the stack against made-up input.
 const MAX_NESTING: u32 = 32;
@@ -31,7 +33,8 @@ struct Object<'a> {
     crs: Option<&'a RawValue>,
 }
 
-/// Reads a collection, a feature or a bare geometry.
+/// Reads a collection, a feature or a bare geometry. Numbers that JSON does not have, such as `NaN`, are
+/// nothing among properties, and the fault of their feature among coordinates.
 ///
 /// # Errors
 /// If the text is no JSON or no GeoJSON object. A feature that is malformed in itself is an item
@@ -40,10 +43,23 @@ pub fn read(text: &str) -> Result<Layer<'_>, Error> {
     if text.trim().is_empty() {
         return Err(Error::Empty);
     }
+    match slices(text) {
+        Ok((crs, slices)) => {
+            let len = Some(slices.len());
+            Ok(Layer { crs, len, ..Layer::of_slices(text, slices.into_iter(), feature) })
+        }
+        Err(error) => {
+            let finite = without_infinities(text).and_then(|text| of_its_own(text).ok());
+            finite.ok_or(error)
+        }
+    }
+}
+
+/// The reference system of a document, and its features unread.
+fn slices(text: &str) -> Result<(Option<Crs>, Vec<&str>), Error> {
     if let Some(Collection { features, crs }) = quick::collection(text) {
         let crs = reference(crs.map(|crs| parse(text, crs)).transpose()?);
-        let len = Some(features.len());
-        return Ok(Layer { crs, len, ..Layer::of_slices(text, features.into_iter(), feature) });
+        return Ok((crs, features));
     }
     let object = parse_object(text, text)?;
     let slices = if object.kind == "FeatureCollection" {
@@ -53,9 +69,24 @@ pub fn read(text: &str) -> Result<Layer<'_>, Error> {
         vec![parse(text, text)?]
     };
     let crs = reference(object.crs.map(ToOwned::to_owned));
-    let len = Some(slices.len());
-    let slices = slices.into_iter().map(RawValue::get);
-    Ok(Layer { crs, len, ..Layer::of_slices(text, slices, feature) })
+    Ok((crs, slices.into_iter().map(RawValue::get).collect()))
+}
+
+/// A layer of a text that nobody else has.
+fn of_its_own<'a>(text: String) -> Result<Layer<'a>, Error> {
+    let (crs, slices) = slices(&text)?;
+    let place = |slice: &str| {
+        let start = offset(&text, slice);
+        start..start + slice.len()
+    };
+    let places: Vec<Range<usize>> = slices.into_iter().map(place).collect();
+    let len = Some(places.len());
+    let text: Arc<str> = text.into();
+    let parts = places.into_iter().enumerate().map(move |(index, place)| {
+        let text = Arc::clone(&text);
+        Part::of_row(place.len(), move || feature(&text, &text[place], index))
+    });
+    Ok(Layer { crs, units: None, len, parts: Box::new(parts) })
 }
 
 /// Reads one feature or geometry a line; record separators [RFC 8142] and empty lines are
@@ -73,10 +104,15 @@ fn reference(member: Option<Json>) -> Option<Crs> {
 
 pub(crate) fn feature(text: &str, part: &str, index: usize) -> Result<Feature, FeatureError> {
     let mut feature = Feature::numbered(index);
-    match read_feature(text, part, &mut feature) {
-        Ok(()) => Ok(feature),
-        Err(error) => Err(FeatureError { feature: index, id: feature.id, error }),
+    let Err(error) = read_feature(text, part, &mut feature) else { return Ok(feature) };
+    // Values may be what JSON does not have, coordinates may not.
+    if let Some(finite) = without_infinities(part) {
+        let mut feature = Feature::numbered(index);
+        if read_feature(&finite, &finite, &mut feature).is_ok() {
+            return Ok(feature);
+        }
     }
+    Err(FeatureError { feature: index, id: feature.id, error })
 }
 
 fn read_feature(text: &str, part: &str, feature: &mut Feature) -> Result<(), Error> {

@@ -252,9 +252,36 @@ fn a_coordinate_that_is_no_number_names_its_vertex() {
             r#"{{"type":"FeatureCollection","features":[{{"type":"Feature","properties":{{"a":[1,2]}},
             "geometry":{{"type":"Polygon","coordinates":[[[0,0],[9,0],[{token},9]]]}}}}]}}"#
         );
-        let error = read(&text).err().unwrap();
-        let told = "ring 0, vertex 2: a coordinate is not finite, and no JSON";
+        let error = read(&text).unwrap().next().unwrap().unwrap_err();
+        let told = "ring 0, vertex 2: a coordinate is nothing, or not finite";
         assert!(error.to_string().ends_with(told), "{token}: {error}");
         assert!(error.to_string().starts_with("line 2, column "), "{token}: {error}");
     }
+}
+
+#[test]
+fn numbers_that_json_does_not_have_are_nothing_among_properties() {
+    let feature = |properties: &str, x: &str| {
+        format!(
+            "{{\"type\":\"Feature\",\"properties\":{properties},\"geometry\":{{\"type\":\"Polygon\",\
+             \"coordinates\":[[[{x},0],[9,0],[9,9]]]}}}}"
+        )
+    };
+    let good = feature("{\"NaN\":NaN,\"b\\\"\":-Infinity,\"c\":\"a NaN\"}", "0");
+    let features = [good.clone(), feature("{}", "NaN"), feature("{}", "1")];
+    let text = format!("{{\"type\":\"FeatureCollection\",\"features\":[{}]}}", features.join(","));
+    let found: Vec<_> = read(&text).unwrap().collect();
+    assert_eq!(found.len(), 3);
+    let values = |feature: &Feature| -> Vec<String> {
+        feature.properties.iter().map(|(name, value)| format!("{name}={value}")).collect()
+    };
+    let expected = ["NaN=null", "b\"=null", "c=\"a NaN\""];
+    assert_eq!(values(found[0].as_ref().unwrap()), expected);
+    assert!(found[1].is_err() && found[2].is_ok());
+    let lines = features.join("\n");
+    let found: Vec<_> = read_lines(&lines).collect();
+    assert_eq!(values(found[0].as_ref().unwrap()), expected);
+    let told = found[1].as_ref().unwrap_err().to_string();
+    assert!(told.starts_with("line 2, ") && told.contains("ring 0, vertex 0: "), "{told}");
+    assert!(found[2].is_ok());
 }

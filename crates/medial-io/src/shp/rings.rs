@@ -2,10 +2,12 @@
 
 use crate::Polygons;
 use medial::geom::Point;
+use std::cmp::Ordering;
 
 /// Polygons of rings that follow one another: clockwise ones are outer rings, the others holes of the
 /// smallest outer ring that contains them. Where there is no clockwise ring, or just one ring, orientation
-/// says nothing, and depth decides.
+/// says nothing, and depth decides. Some programs have it the other way round: so it is taken if then, and
+/// only then, each hole lies in an outer ring.
 ///
 /// A hole that lies in no outer ring goes with the outer ring before it, so that who looks into the
 /// polygon finds it misplaced.
@@ -23,18 +25,23 @@ pub(super) fn grouped(rings: Vec<Vec<Point>>) -> Polygons {
             && top <= y_max
             && is_within(&rings[inner], &rings[outer])
     };
-    let has_outer = areas.iter().any(|&area| area < 0.0);
-    let is_outer: Vec<bool> = (0..rings.len())
-        .map(|k| {
-            if has_outer {
-                // A ring without area is for validation to judge.
-                areas[k].partial_cmp(&0.0) != Some(std::cmp::Ordering::Greater)
-            } else {
-                (0..rings.len()).filter(|&other| other != k && contains(other, k)).count() % 2 == 0
-            }
-        })
-        .collect();
-    let outer: Vec<usize> = (0..rings.len()).filter(|&k| is_outer[k]).collect();
+    let all = 0..rings.len();
+    // A ring without area is an outer one, for validation to judge.
+    let runs = |hole: Ordering| -> Vec<bool> {
+        areas.iter().map(|area| area.partial_cmp(&0.0) != Some(hole)).collect()
+    };
+    let fits = |is_outer: &[bool]| {
+        let mut holes = all.clone().filter(|&k| !is_outer[k]);
+        holes.all(|hole| all.clone().any(|k| is_outer[k] && contains(k, hole)))
+    };
+    let is_outer = if areas.iter().any(|&area| area < 0.0) {
+        let [given, turned] = [Ordering::Greater, Ordering::Less].map(runs);
+        if !fits(&given) && fits(&turned) { turned } else { given }
+    } else {
+        let around = |k: usize| all.clone().filter(move |&l| l != k && contains(l, k)).count();
+        all.clone().map(|k| around(k) % 2 == 0).collect()
+    };
+    let outer: Vec<usize> = all.clone().filter(|&k| is_outer[k]).collect();
     let polygon_of = |hole: usize| {
         let around = outer.iter().enumerate().filter(|&(_, &ring)| contains(ring, hole));
         let smallest =
@@ -44,8 +51,7 @@ pub(super) fn grouped(rings: Vec<Vec<Point>>) -> Polygons {
             |(polygon, _)| polygon,
         )
     };
-    let homes: Vec<Option<usize>> =
-        (0..rings.len()).map(|k| (!is_outer[k]).then(|| polygon_of(k))).collect();
+    let homes: Vec<Option<usize>> = all.map(|k| (!is_outer[k]).then(|| polygon_of(k))).collect();
     let mut polygons: Polygons = vec![Vec::new(); outer.len().max(1)];
     let mut next = 0;
     let mut holes = Vec::new();
@@ -154,6 +160,14 @@ mod tests {
         ];
         let found = grouped(vec![b.clone(), a.clone(), c.clone()]);
         assert_eq!(found, vec![vec![a, b], vec![c]]);
+    }
+
+    #[test]
+    fn rings_that_all_run_the_other_way_are_understood() {
+        let [a, b] = [square(0.0, 0.0, 9.0, false), square(20.0, 0.0, 9.0, false)];
+        let [hole, other] = [square(1.0, 1.0, 3.0, true), square(21.0, 1.0, 3.0, true)];
+        let rings = vec![a.clone(), hole.clone(), b.clone(), other.clone()];
+        assert_eq!(grouped(rings), vec![vec![a, hole], vec![b, other]]);
     }
 
     #[test]

@@ -22,7 +22,7 @@ const COLUMNS: usize = 255;
 /// extensions behind its whole name.
 ///
 /// Outer rings run clockwise and holes counterclockwise, as the format has it. Numbers are written so that
-/// they read back exactly.
+/// they read back exactly. Points among lines become lines of no length.
 ///
 /// # Errors
 /// If geometries are of several kinds, if there is more than the format holds, or if the system fails.
@@ -30,7 +30,9 @@ pub fn write(path: &Path, table: &Table<'_>, rows: Rows<'_>) -> Result<Written, 
     let mut written = Written::default();
     let schema = table.schema;
     let (in_space, _) = schema.in_space();
-    let kind = kind_of(table)? + if in_space { kind::IN_SPACE } else { 0 };
+    let kind = kind_of(table)?;
+    let is_lines = kind == kind::POLYLINE;
+    let kind = kind + if in_space { kind::IN_SPACE } else { 0 };
     let columns = schema.columns();
     if columns.len() > COLUMNS {
         let why = format!(
@@ -56,10 +58,17 @@ pub fn write(path: &Path, table: &Table<'_>, rows: Rows<'_>) -> Result<Written, 
     let mut words = (HEADER / 2) as u64;
     let mut content = Vec::new();
     let mut cut = vec![0_usize; columns.len()];
+    let mut n_stretched = 0_usize;
     for (row, number) in rows.zip(1_u32..) {
         let row = row?;
         content.clear();
-        let geometry = row.wkb.as_deref().and_then(Geometry::of_wkb);
+        let mut geometry = row.wkb.as_deref().and_then(Geometry::of_wkb);
+        if let Some(Geometry::Point(place)) = geometry
+            && is_lines
+        {
+            geometry = Some(Geometry::LineString(vec![place; 2]));
+            n_stretched += 1;
+        }
         match geometry {
             Some(geometry) => {
                 shape(&mut content, kind, in_space, &geometry, row.bounds, &mut heights);
@@ -101,6 +110,13 @@ pub fn write(path: &Path, table: &Table<'_>, rows: Rows<'_>) -> Result<Written, 
              known"
         ));
     }
+    if n_stretched > 0 {
+        written.warnings.push(format!(
+            "points among lines are written as lines of no length: a shapefile holds one kind of geometry, \
+             and {n_stretched} of {} are points",
+            schema.n_rows
+        ));
+    }
     for (column, cut) in columns.iter().zip(cut).filter(|(_, cut)| *cut > 0) {
         let name = &column.name;
         written.warnings.push(format!(
@@ -132,18 +148,19 @@ fn kind_of(table: &Table<'_>) -> Result<i32, WriteError> {
         2 | 5 => kind::POLYLINE,
         _ => kind::POLYGON,
     };
-    let mut kinds = table.schema.geometries.iter();
-    // Nothing at all is most likely to have been lines.
-    let first = kinds.next().map_or(kind::POLYLINE, |kind| of(kind.number));
-    match kinds.find(|kind| of(kind.number) != first) {
-        None => Ok(first),
-        Some(_) => {
+    let mut kinds: Vec<i32> = table.schema.geometries.iter().map(|kind| of(kind.number)).collect();
+    kinds.sort_unstable();
+    kinds.dedup();
+    match kinds[..] {
+        [only] => Ok(only),
+        // Nothing at all is most likely to have been lines.
+        [] | [kind::POINT, kind::POLYLINE] => Ok(kind::POLYLINE),
+        _ => {
             let mut names: Vec<&str> =
                 table.schema.geometries.iter().map(|kind| kind.name()).collect();
             names.dedup();
             Err(WriteError::unfit(format!(
-                "a shapefile holds one kind of geometry, and these are {}; leave out what adds the other \
-                 one (--keypoints), or use gpkg",
+                "a shapefile holds one kind of geometry, and these are {}; use gpkg",
                 names.join(" and ")
             )))
         }

@@ -38,10 +38,10 @@ pub enum Repair {
     StraightCorner,
     /// `spike`: the tip of a run there and back on one line was removed.
     Spike,
-    /// `degenerate_hole`: a hole with fewer than three distinct points, or all on one line, was
-    /// dropped.
+    /// `degenerate_hole`: a hole, or a ring of a polygon that was repaired, with fewer than three distinct
+    /// points, or all on one line, was dropped.
     DegenerateHole,
-    /// `empty_polygon`: a polygon without points was left out; its number stays free.
+    /// `empty_polygon`: a polygon that encloses nothing was left out; its number stays free.
     EmptyPolygon,
     /// `reversed`: the ring was turned round, so that the interior lies to its left.
     Reversed,

@@ -23,7 +23,7 @@ pub use text::Fonts;
 use crate::curves::{Affine, Contour, flatten};
 use crate::json::quoted;
 use crate::text::syntax_at;
-use crate::{Error, Feature, FeatureError, Json, Layer, Note, ReadOptions};
+use crate::{Error, Feature, FeatureError, Json, Layer, Note, ReadOptions, gzip};
 use kurbo::{Cap, Join};
 use medial::domain::FillRule;
 use medial::geom::Point;
@@ -32,7 +32,7 @@ use shape::Subpath;
 use simplecss::StyleSheet;
 use std::collections::HashMap;
 use style::Style;
-use svgtypes::{Length, LengthUnit, NumberListParser, PointsParser, Transform};
+use svgtypes::{Length, LengthUnit, NumberListParser, PointsParser, Transform, TransformOrigin};
 
 /// Deepest nesting of elements, those that are used by others included.
 const DEPTH: usize = 200;
@@ -93,7 +93,11 @@ pub fn read<'a>(text: &str, options: &ReadOptions) -> Result<Layer<'a>, Error> {
 /// Whether a drawing may have text, for which fonts are needed.
 #[must_use]
 pub fn has_text(bytes: &[u8]) -> bool {
-    bytes.windows(5).any(|window| window == b"text>" || window == b"<text" || window == b":text")
+    // Nobody knows what is packed.
+    bytes.starts_with(&gzip::MAGIC)
+        || bytes
+            .windows(5)
+            .any(|window| window == b"text>" || window == b"<text" || window == b":text")
 }
 
 /// What is to become a feature.
@@ -179,15 +183,12 @@ impl<'a, 'input> Walker<'a, 'input> {
         place.clipped |= ["clip-path", "mask"]
             .iter()
             .any(|name| style.get(name).is_some_and(|value| value != "none"));
-        if let Some(value) = style.get("transform").filter(|value| *value != "none") {
-            match value.replace("px", "").replace("deg", "").parse::<Transform>() {
-                Ok(Transform { a, b, c, d, e, f }) => {
-                    place.to_page = place.to_page.after(&Affine { a, b, c, d, e, f });
-                }
-                Err(error) => {
-                    let why = format!("the transform of `{name}` cannot be read: {error}");
-                    return self.broken(node, &why);
-                }
+        match self.transform(&style, place.view) {
+            Ok(Some(transform)) => place.to_page = place.to_page.after(&transform),
+            Ok(None) => {}
+            Err(why) => {
+                let why = format!("the transform of `{name}` cannot be read: {why}");
+                return self.broken(node, &why);
             }
         }
         if place.to_page.determinant() == 0.0 {
@@ -222,6 +223,29 @@ impl<'a, 'input> Walker<'a, 'input> {
             }
             _ => {}
         }
+    }
+
+    /// What an element does to its coordinates, in a view of this size.
+    fn transform(&self, style: &Style, view: Point) -> Result<Option<Affine>, String> {
+        let Some(value) = style.get("transform").filter(|value| *value != "none") else {
+            return Ok(None);
+        };
+        let Transform { a, b, c, d, e, f } = value
+            .replace("px", "")
+            .replace("deg", "")
+            .parse()
+            .map_err(|error: svgtypes::Error| error.to_string())?;
+        let transform = Affine { a, b, c, d, e, f };
+        if let Some(other) = style.get("transform-box").filter(|name| *name != "view-box") {
+            return Err(format!("the transform-box `{other}` is not known; leave it out"));
+        }
+        let Some(origin) = style.get("transform-origin") else { return Ok(Some(transform)) };
+        let TransformOrigin { x_offset, y_offset, .. } =
+            origin.parse().map_err(|_| format!("`{origin}` is no transform-origin"))?;
+        let x = self.user_units(x_offset, style, view.x);
+        let y = self.user_units(y_offset, style, view.y);
+        let there = Affine::translation(x, y);
+        Ok(Some(there.after(&transform).after(&Affine::translation(-x, -y))))
     }
 
     /// An element with coordinates of its own.
@@ -395,14 +419,15 @@ impl<'a, 'input> Walker<'a, 'input> {
             return;
         };
         // Its own transform is in the source, and in the place.
-        let to_page = match style.get("transform").and_then(|t| t.parse::<Transform>().ok()) {
-            Some(Transform { a, b, c, d, e, f }) => match (Affine { a, b, c, d, e, f }).inverse() {
+        let to_page = match self.transform(style, place.view) {
+            Ok(Some(transform)) => match transform.inverse() {
                 Some(back) => place.to_page.after(&back),
                 None => return,
             },
-            None => place.to_page,
+            _ => place.to_page,
         };
-        let found = text::glyphs(self.document, node, style, self.sheets, self.fonts);
+        let sources = (self.document, self.sheets);
+        let found = text::glyphs(sources, node, style, place.view, self.fonts);
         let contours = if found.is_empty() {
             let start: String = text.chars().take(20).collect();
             Err(Error::NoFont { what: format!("the text `{start}`") })
@@ -482,7 +507,7 @@ impl<'a, 'input> Walker<'a, 'input> {
         let at = |a: &str, b: &str| Point::new(zero(x(a)), zero(y(b)));
         Ok(match node.tag_name().name() {
             "path" => {
-                let data = node.attribute("d").or_else(|| style.get("d")).unwrap_or_default();
+                let data = node.attribute("d").unwrap_or_default();
                 if data.trim() == "none" {
                     return Ok(Vec::new());
                 }
@@ -528,18 +553,22 @@ impl<'a, 'input> Walker<'a, 'input> {
         })
     }
 
-    /// The length in an attribute, in user units.
+    /// The length in an attribute, or in a style sheet, in user units.
     fn length(&self, node: Node, name: &str, style: &Style, along: f64) -> Option<f64> {
-        self.value(node.attribute(name)?, style, along)
+        self.value(style.get(name).or_else(|| node.attribute(name))?, style, along)
     }
 
     fn value(&self, value: &str, style: &Style, along: f64) -> Option<f64> {
-        let Length { number, unit } = value.trim().parse::<Length>().ok()?;
+        Some(self.user_units(value.trim().parse().ok()?, style, along))
+    }
+
+    fn user_units(&self, length: Length, style: &Style, along: f64) -> f64 {
+        let Length { number, unit } = length;
         let font_size = || match style.get("font-size").map(str::parse::<Length>) {
             Some(Ok(Length { number, unit: LengthUnit::None | LengthUnit::Px })) => number,
             _ => 16.0,
         };
-        Some(match unit {
+        match unit {
             LengthUnit::None | LengthUnit::Px => number,
             LengthUnit::Em => number * font_size(),
             LengthUnit::Ex => number * font_size() / 2.0,
@@ -549,7 +578,7 @@ impl<'a, 'input> Walker<'a, 'input> {
             LengthUnit::Pt => number * 4.0 / 3.0,
             LengthUnit::Pc => number * 16.0,
             LengthUnit::Percent => number / 100.0 * along,
-        })
+        }
     }
 }
 

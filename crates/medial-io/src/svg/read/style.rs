@@ -38,9 +38,27 @@ const INHERITED: &[&str] = &[
     "writing-mode",
 ];
 
-/// Properties of an element alone.
-const OWN: &[&str] =
-    &["clip-path", "display", "mask", "opacity", "transform", "vector-effect", "filter"];
+/// Properties of an element alone; sizes and places may be said by style sheets too (SVG 2, 7.2).
+const OWN: &[&str] = &[
+    "clip-path",
+    "cx",
+    "cy",
+    "display",
+    "filter",
+    "height",
+    "mask",
+    "opacity",
+    "r",
+    "rx",
+    "ry",
+    "transform",
+    "transform-box",
+    "transform-origin",
+    "vector-effect",
+    "width",
+    "x",
+    "y",
+];
 
 /// The properties that hold for an element.
 #[derive(Clone, Debug, Default)]

@@ -101,6 +101,50 @@ fn styles_say_what_is_drawn() {
 }
 
 #[test]
+fn sizes_and_places_may_stand_in_style_sheets() {
+    let style = "<style>rect { width: 30px; height: 10px; x: 5; } circle { r: 2 }</style>";
+    let read = one(&format!("{style}<rect y='1' width='7'/>"));
+    let p = Point::new;
+    assert_eq!(read.polygons, [[[p(5.0, -1.0), p(35.0, -1.0), p(35.0, -11.0), p(5.0, -11.0)]]]);
+    assert!((area(&one(&format!("{style}<circle/>")).polygons).abs() - 4.0 * PI).abs() < 5e-3);
+}
+
+#[test]
+fn transforms_have_an_origin() {
+    let p = Point::new;
+    let turned = [[[p(6.0, 4.0), p(6.0, 2.0), p(5.0, 2.0), p(5.0, 4.0)]]];
+    for origin in ["6 -4", "6px -4px", "6% -8%"] {
+        let read = one(&format!(
+            "<rect x='6' y='-4' width='2' height='1' transform='matrix(0 1 -1 0 0 0)' \
+             transform-origin='{origin}'/>"
+        ));
+        assert_eq!(read.polygons, turned, "{origin}");
+    }
+    let style = "transform: scale(2px); transform-box: fill-box";
+    let read = features(&format!("<rect width='2' height='1' style='{style}'/>"));
+    let told = read[0].as_ref().unwrap_err().to_string();
+    assert!(told.contains("the transform-box `fill-box` is not known"), "{told}");
+}
+
+#[test]
+fn text_stands_where_its_view_says() {
+    let font = include_bytes!("../../../../../fixtures/drawings/two_letters.ttf");
+    let options =
+        ReadOptions { fonts: Fonts::default().with(font.to_vec()), ..ReadOptions::default() };
+    let left = |place: &str| {
+        let text = format!(
+            "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 100 50'><text {place}>L</text></svg>"
+        );
+        let read: Vec<_> = read(&text, &options).unwrap().map(Result::unwrap).collect();
+        read[0].polygons[0][0].iter().map(|p| p.x).fold(f64::INFINITY, f64::min)
+    };
+    let at = left("x='50'");
+    assert!((left("x='50%'") - at).abs() < 1e-3, "{at}");
+    let moved = left("x='50' transform='scale(2)' transform-origin='50 0'");
+    assert!((moved - 50.0 - 2.0 * (at - 50.0)).abs() < 1e-3, "{moved}");
+}
+
+#[test]
 fn strokes_are_outlines() {
     let of = |body: &str| {
         let read = one(body);

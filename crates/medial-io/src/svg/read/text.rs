@@ -54,15 +54,16 @@ impl PartialEq for Fonts {
     }
 }
 
-/// The outlines of the glyphs of a text element, in its coordinates; none if it has no glyphs.
+/// The outlines of the glyphs of a text element, in its coordinates, in a view of some size; none if it
+/// has no glyphs.
 pub(super) fn glyphs(
-    document: &Document,
+    sources: (&Document, &str),
     node: Node,
     style: &Style,
-    sheets: &str,
+    view: Point,
     fonts: &Fonts,
 ) -> Vec<Contour> {
-    let alone = alone(document, node, style, sheets);
+    let alone = alone(sources, node, style, view);
     let options = usvg::Options {
         fontdb: Arc::clone(&fonts.0),
         image_href_resolver: usvg::ImageHrefResolver {
@@ -82,14 +83,16 @@ pub(super) fn glyphs(
 }
 
 /// A document with nothing but a text.
-fn alone(document: &Document, node: Node, style: &Style, sheets: &str) -> String {
+fn alone((document, sheets): (&Document, &str), node: Node, style: &Style, view: Point) -> String {
     let mut text = String::from("<svg xmlns=\"http://www.w3.org/2000/svg\"");
     for namespace in node.namespaces() {
         if let Some(name) = namespace.name().filter(|name| *name != "xml") {
             let _ = write!(text, " xmlns:{name}=\"{}\"", crate::text::escaped(namespace.uri()));
         }
     }
-    text.push_str(" width=\"1000\" height=\"1000\"><style>");
+    // Percentages are of the view.
+    let Point { x, y } = view;
+    let _ = write!(text, " width=\"{x}\" height=\"{y}\"><style>");
     text.push_str(&crate::text::escaped(sheets).replace("&quot;", "\""));
     text.push_str("</style><defs>");
     // Paths that the text runs along.

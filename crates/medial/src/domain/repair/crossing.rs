@@ -6,7 +6,7 @@ use dashu_int::ops::{BitTest as _, UnsignedAbs as _};
 use crate::geom::Point;
 
 /// Coordinates other than 0 below this are taken for 0: a domain has none of them.
-const LEAST: f64 = 1.0 / 1.606_938_044_258_990_3e60;
+pub(super) const LEAST: f64 = 1.0 / 1.606_938_044_258_990_3e60;
 
 /// Bits of a quotient before it is rounded to a double, which has 53.
 const BITS: usize = 64;

@@ -23,7 +23,7 @@ mod winding;
 use std::collections::{BTreeMap, HashSet};
 
 use super::origins::{Origins, Source};
-use super::reduce::open_len;
+use super::reduce::{open_len, reduce};
 use super::{
     CornerOrigin, Domain, DomainError, Entry, FillRule, Options, Origin, Place, Repair, Report,
 };
@@ -131,9 +131,15 @@ pub(super) fn repaired(
     if options.fill == FillRule::EvenOdd {
         note_roles(&domain, &rings, &names, &mut entries);
     }
+    let given_before: HashSet<u32> = entries
+        .iter()
+        .filter(|entry| entry.repair == Repair::DuplicateRing && entry.ring == 0)
+        .map(|entry| entry.polygon)
+        .collect();
     for (polygon, of_polygon) in (0..).zip(&rings) {
         let had_any = polygons[polygon as usize].iter().any(|ring| !ring.is_empty());
-        if of_polygon.is_empty() && had_any && !options.dissolve {
+        let is_lost = of_polygon.is_empty() && had_any && !given_before.contains(&polygon);
+        if is_lost && !options.dissolve {
             entries.push(Entry::of(Repair::EmptyPolygon, polygon, 0));
         }
     }
@@ -161,15 +167,34 @@ impl Edges {
             }
             let mut of_polygon = HashSet::new();
             for (number, (ring, form)) in rings.iter().zip(forms).enumerate() {
+                let number = number as u32;
                 if !form.is_empty() && !of_polygon.insert(form) {
-                    let repair = Repair::DuplicateRing;
-                    edges.entries.push(Entry::of(repair, polygon, number as u32));
+                    edges.entries.push(Entry::of(Repair::DuplicateRing, polygon, number));
                     continue;
                 }
-                edges.add(ring, polygon, number as u32);
+                let at = Place { polygon, ring: number, index: 0, lone: false };
+                match reduce(ring, at) {
+                    Ok(reduced) => {
+                        edges.note(Repair::RepeatedPoint, at, reduced.repeated);
+                        edges.note(Repair::StraightCorner, at, reduced.straight);
+                        edges.note(Repair::Spike, at, reduced.spikes);
+                        edges.add(ring, polygon, number);
+                    }
+                    // By either rule a ring on one line encloses nothing.
+                    Err(_) if ring.is_empty() => {}
+                    Err(_) => {
+                        edges.entries.push(Entry::of(Repair::DegenerateHole, polygon, number));
+                    }
+                }
             }
         }
         edges
+    }
+
+    fn note(&mut self, repair: Repair, at: Place, indices: Vec<u32>) {
+        if !indices.is_empty() {
+            self.entries.push(Entry { indices, ..Entry::of(repair, at.polygon, at.ring) });
+        }
     }
 
     fn add(&mut self, ring: &[Point], polygon: u32, number: u32) {
@@ -371,6 +396,7 @@ fn note_roles(
     names: &Names,
     entries: &mut Vec<Entry>,
 ) {
+    let mut known = HashSet::new();
     for walk in domain.walks() {
         let polygon = walk.polygon as usize;
         let origin = domain.origin(walk.first);
@@ -381,11 +407,8 @@ fn note_roles(
         };
         let first = of(&pieces[0]);
         let is_whole = pieces.iter().all(|d| of(d) == first);
-        if is_whole && walk.hole != (first.1 > 0) {
-            let entry = Entry::of(Repair::Regrouped, first.0, first.1);
-            if !entries.contains(&entry) {
-                entries.push(entry);
-            }
+        if is_whole && walk.hole != (first.1 > 0) && known.insert(first) {
+            entries.push(Entry::of(Repair::Regrouped, first.0, first.1));
         }
     }
 }

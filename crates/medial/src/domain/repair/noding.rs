@@ -16,7 +16,7 @@
 use std::ops::Range;
 use std::time::Instant;
 
-use super::crossing::{Crossing, scaled};
+use super::crossing::{Crossing, LEAST, scaled};
 use crate::domain::DomainError;
 use crate::geom::{BoundsTree, Point, Rect, U, Visitor, order_key, orient2d};
 
@@ -214,8 +214,8 @@ fn meet(
     }
     if of_s.iter().chain(&of_t).all(|&side| side != 0.0) {
         let at = Crossing::of([s.from, s.to], [t.from, t.to]).rounded();
-        // Half an ulp of each coordinate.
-        let off = 2.0 * U * (at.x.abs() + at.y.abs());
+        // Half an ulp of each coordinate, or what was taken for 0.
+        let off = (2.0 * U * (at.x.abs() + at.y.abs())).max(2.0 * LEAST);
         for (strand, number) in [(&s, k), (&t, l)] {
             // Rounding may have led to an end of one of them, but then not of both.
             if at != strand.from && at != strand.to {
@@ -306,7 +306,8 @@ fn snapped(
     let half = 0.5 * cell;
     let moved = 2.0 * cell;
     let mut result = Vec::with_capacity(2 * edges.len());
-    for edge in edges {
+    for (k, edge) in (0..).zip(edges) {
+        check(deadline, k)?;
         let mut passed: Vec<Point> = Vec::new();
         let bounds = edge.bounds();
         near.bounds = Rect {
@@ -399,6 +400,19 @@ mod tests {
                 assert!(!snapped);
             }
         }
+    }
+
+    #[test]
+    fn a_crossing_that_is_taken_for_the_origin_moves_its_edges() {
+        let tiny = scaled(1.0, -200);
+        let p = Point::new;
+        let edges = vec![
+            Strand::new(p(-1.0, -tiny), p(3.0, tiny), 0),
+            Strand::new(p(0.0, -1.0), p(0.0, 1.0), 1),
+        ];
+        let Noded { strands, .. } = node(edges, None).unwrap();
+        assert_eq!(strands.iter().filter(|s| s.from == Point::default()).count(), 2);
+        assert!(strands.iter().all(|s| s.moved >= tiny / 2.0), "{strands:?}");
     }
 
     #[test]
