@@ -149,22 +149,26 @@ impl SiteTable {
     pub fn among(&self, numbers: &mut [u32]) -> Option<Self> {
         let (n, walks) = (self.records.len(), self.runs.len());
         let mut table = Self::with_room(n, self.points.len(), walks);
-        let mut runs = self.runs.iter().peekable();
-        let (mut polygon, mut ring) = (0, 0);
-        for (number, new) in (0..).zip(numbers) {
-            if let Some(run) = runs.next_if(|run| run.first == number) {
-                (polygon, ring) = (run.polygon, run.ring);
-            }
-            if *new == u32::MAX {
-                continue;
-            }
-            let (SiteShape { kind, a, b }, part) = self.shape_and_part(number);
-            let index = self.records[number as usize].index;
+        for (site, new) in self.in_order().zip(numbers).filter(|(_, new)| **new != u32::MAX) {
             *new = table.len();
-            table.put(&Site { kind, polygon, ring, index, part, a, b })?;
+            table.put(&site)?;
         }
         table.shrink();
         Some(table)
+    }
+
+    /// All sites, without a search for the ring of each.
+    pub fn in_order(&self) -> impl Iterator<Item = Site> {
+        let mut runs = self.runs.iter().peekable();
+        let (mut polygon, mut ring) = (0, 0);
+        (0..self.len()).map(move |number| {
+            if let Some(run) = runs.next_if(|run| run.first == number) {
+                (polygon, ring) = (run.polygon, run.ring);
+            }
+            let (SiteShape { kind, a, b }, part) = self.shape_and_part(number);
+            let index = self.records[number as usize].index;
+            Site { kind, polygon, ring, index, part, a, b }
+        })
     }
 
     /// Gives back the room that was not needed.
@@ -248,11 +252,16 @@ impl fmt::Debug for SiteTable {
 #[derive(Clone, Copy)]
 pub struct Sites<'a>(pub(super) &'a SiteTable);
 
-impl Sites<'_> {
+impl<'a> Sites<'a> {
     /// How many there are.
     #[must_use]
     pub fn len(self) -> usize {
         self.0.records.len()
+    }
+
+    /// All of them in their order, without a search for the ring of each.
+    pub(crate) fn in_order(self) -> impl Iterator<Item = Site> + use<'a> {
+        self.0.in_order()
     }
 
     /// Site number `number`, counted as [`Path`](super::Path) and

@@ -129,12 +129,12 @@ impl Fire {
                 _ => return None,
             }
             self.times[keypoint as usize] = time;
-            let path = axis.paths().at(number);
-            let forwards = path.from == keypoint;
+            let [from, to] = axis.paths().ends(number);
+            let forwards = from == keypoint;
             self.ways[number as usize] = if forwards { Way::Forwards } else { Way::Backwards };
             self.order.push(number);
             arrivals[keypoint as usize].left = 0;
-            keypoint = if forwards { path.to } else { path.from };
+            keypoint = if forwards { to } else { from };
             let there = &mut arrivals[keypoint as usize];
             there.left -= 1;
             there.numbers ^= number;

@@ -22,7 +22,7 @@
 //! # Departures
 //! The root of a tree is where it burns last; the papers leave it to be found otherwise.
 
-use std::cell::Cell;
+use std::cell::{Cell, OnceCell};
 use std::ops::Range;
 use std::sync::OnceLock;
 
@@ -31,7 +31,9 @@ use super::ground::Ground;
 use super::measure::Measure;
 use super::rest::{Pruned, Rest};
 use super::scale::Swallowing;
-use crate::axis::{Accuracy, Curve, KeypointKind, MedialAxis, Path, Side, bisected, crossing};
+use crate::axis::{
+    Accuracy, Curve, Keypoint, KeypointKind, MedialAxis, Path, Side, bisected, crossing,
+};
 use crate::check::Name;
 use crate::domain::{Domain, Site};
 use crate::engine::exterior_frame;
@@ -122,15 +124,21 @@ impl Removal {
 /// A path, or the part of one up to the root, seen from the leaves.
 pub(super) struct Limb<'h> {
     hierarchy: &'h Hierarchy<'h>,
-    curve: Curve,
+    path: Path,
     left: Site,
     right: Site,
+    /// The disks at the start and at the end.
+    disks: [(Point, f64); 2],
+    /// Made when something between the two is asked for.
+    curve: OnceCell<Curve>,
     /// When its start burns, and the longest way to a leaf there.
     time: f64,
     reach: f64,
     /// The squared distance of the farthest corner behind that was found last, and which it was: mostly
     /// it stays the same along the way.
     far: Cell<(f64, u32)>,
+    /// From where it was looked for.
+    far_from: Cell<Option<Point>>,
     /// The squared distance of the farthest corner behind from the start; 0 at a leaf.
     behind: f64,
 }
@@ -225,15 +233,21 @@ impl<'a> Hierarchy<'a> {
     /// The path as the fire runs through it from one end.
     fn limb(&self, path: &Path, time: f64, reach: f64, far: (f64, u32)) -> Limb<'_> {
         let governor = |site: u32| self.governors[site as usize];
-        let (left, right) = (governor(path.left), governor(path.right));
+        let disk = |keypoint: u32| {
+            let Keypoint { position, radius, .. } = self.axis.keypoints().at(keypoint);
+            (position, radius)
+        };
         Limb {
             hierarchy: self,
-            curve: self.axis.curve(path),
-            left,
-            right,
+            path: *path,
+            left: governor(path.left),
+            right: governor(path.right),
+            disks: [disk(path.from), disk(path.to)],
+            curve: OnceCell::new(),
             time,
             reach,
             far: Cell::new(far),
+            far_from: Cell::new(None),
             behind: far.0,
         }
     }
@@ -247,21 +261,23 @@ impl<'a> Hierarchy<'a> {
         let mut fars = vec![(0.0, NONE); n];
         let mut both = Vec::new();
         for &number in &self.fire.order {
-            let path = self.axis.paths().at(number);
-            let (path, forwards) = match self.fire.ways[number as usize] {
-                Way::Forwards => (path, true),
-                Way::Backwards => (path.reversed(), false),
+            let forwards = match self.fire.ways[number as usize] {
+                Way::Forwards => true,
+                Way::Backwards => false,
                 Way::Both(length) => {
                     both.push((number, length));
                     continue;
                 }
                 Way::Never => continue,
             };
-            let (from, to) = (path.from as usize, path.to as usize);
+            let [start, end] = self.axis.paths().ends(number).map(|keypoint| keypoint as usize);
+            let (from, to) = if forwards { (start, end) } else { (end, start) };
             if values[from] >= enough {
                 values[to] = values[to].max(values[from]);
                 continue;
             }
+            let path = self.axis.paths().at(number);
+            let path = if forwards { path } else { path.reversed() };
             let limb = self.limb(&path, self.fire.times[from], reaches[from], fars[from]);
             let (end, root) = (1.0, None);
             let part = Part { path: number, forwards, from: path.from, to: path.to, end, root };
@@ -457,31 +473,90 @@ impl Visitor for Farthest<'_> {
 
     fn item(&mut self, corner: u32) {
         if self.ranges.iter().any(|range| range.contains(&corner)) {
-            let distance2 = (self.domain.edge(corner).start - self.from).norm2();
-            if distance2 > self.distance2 {
-                (self.distance2, self.corner) = (distance2, corner);
-            }
+            self.ask(corner);
+        }
+    }
+}
+
+impl Farthest<'_> {
+    #[inline]
+    fn ask(&mut self, corner: u32) {
+        let distance2 = (self.domain.edge(corner).start - self.from).norm2();
+        if distance2 > self.distance2 {
+            (self.distance2, self.corner) = (distance2, corner);
         }
     }
 }
 
 impl Limb<'_> {
+    fn curve(&self) -> &Curve {
+        self.curve.get_or_init(|| {
+            let axis = self.hierarchy.axis;
+            let site = |site: u32| axis.site_shape(site);
+            let [from, to] = self.disks;
+            Curve::between(&site(self.path.left), &site(self.path.right), from, to)
+        })
+    }
+
     pub fn radius(&self, u: f64) -> f64 {
-        self.curve.radius_at(u)
+        if u <= 0.0 {
+            self.disks[0].1
+        } else if u >= 1.0 {
+            self.disks[1].1
+        } else {
+            self.curve().radius_at(u)
+        }
+    }
+
+    fn centre(&self, u: f64) -> Point {
+        if u <= 0.0 {
+            self.disks[0].0
+        } else if u >= 1.0 {
+            self.disks[1].0
+        } else {
+            self.curve().point_at(u)
+        }
     }
 
     /// The first parameter at which the radius is that large, if it is before an end.
     pub fn reaches(&self, radius: f64, end: f64) -> Option<f64> {
-        if self.curve.radius_from() >= radius {
+        if self.radius(0.0) >= radius {
             return Some(0.0);
         }
-        let found = self.curve.parameters_at_radius(radius).into_iter().flatten();
+        let found = self.curve().parameters_at_radius(radius).into_iter().flatten();
         found.filter(|&u| u < end).min_by(f64::total_cmp)
     }
 
     /// The parameter of the neck, if it lies before an end.
     pub fn neck(&self, end: f64) -> Option<f64> {
-        self.curve.neck().filter(|&neck| neck < end)
+        if self.is_monotone() {
+            return None;
+        }
+        self.curve().neck().filter(|&neck| neck < end)
+    }
+
+    /// Whether it can be told without the curve that there is no neck: the line through a corner that is
+    /// square to the other governor, on which the neck would lie, has both ends on one side.
+    fn is_monotone(&self) -> bool {
+        /// Many times the rounding error of the products and of the direction of an edge.
+        const SURE: f64 = 1e-12;
+        let domain = self.hierarchy.ground.domain();
+        let [left, right] = [self.left, self.right].map(|site| domain.edge(site.index()));
+        let (on_line, along) = match (self.left.is_edge(), self.right.is_edge()) {
+            (true, true) => return true,
+            (true, false) => (right.start, left.direction),
+            (false, true) => (left.start, right.direction),
+            (false, false) => {
+                let way = right.start - left.start;
+                (left.start + way * 0.5, way.perp())
+            }
+        };
+        let [from, to] = self.disks.map(|(centre, _)| {
+            let way = centre - on_line;
+            let (x, y) = (along.x * way.x, along.y * way.y);
+            if (x + y).abs() > SURE * (x.abs() + y.abs()) { x + y } else { f64::NAN }
+        });
+        from > 0.0 && to > 0.0 || from < 0.0 && to < 0.0
     }
 
     /// The first parameter at which a measure reaches a threshold, if it does so before an end.
@@ -507,7 +582,7 @@ impl Limb<'_> {
 
     /// The excess at the start, from the corners behind all that ends there.
     pub fn excess_at_start(&self) -> f64 {
-        (self.behind.sqrt() - self.curve.radius_from()).max(0.0)
+        (self.behind.sqrt() - self.radius(0.0)).max(0.0)
     }
 
     /// The value at the start, as far as it may be larger than those of what ends there.
@@ -515,7 +590,7 @@ impl Limb<'_> {
         match measure {
             // All corners behind are behind one of those.
             Measure::Excess => 0.0,
-            Measure::RelativeExcess if self.curve.radius_from() > 0.0 => 0.0,
+            Measure::RelativeExcess if self.radius(0.0) > 0.0 => 0.0,
             _ => self.value(measure, 0.0),
         }
     }
@@ -528,9 +603,9 @@ impl Limb<'_> {
 
     /// The value of a measure at a parameter, by itself.
     pub fn value(&self, measure: Measure, u: f64) -> f64 {
-        let (centre, radius) = (self.curve.point_at(u), self.curve.radius_at(u));
-        let length = || self.curve.piece(0.0, u).length();
-        let behind = || 2.0 * self.curve.growth_at(u).clamp(-1.0, 1.0).acos();
+        let (centre, radius) = (self.centre(u), self.radius(u));
+        let length = || self.curve().piece(0.0, u).length();
+        let behind = || 2.0 * self.curve().growth_at(u).clamp(-1.0, 1.0).acos();
         let value = match measure {
             Measure::Excess => self.farthest(centre) - radius,
             Measure::RelativeExcess | Measure::Prominence if radius > 0.0 => {
@@ -588,18 +663,27 @@ impl Limb<'_> {
 
     /// The distance of the farthest corner behind.
     fn farthest(&self, centre: Point) -> f64 {
+        if self.far_from.get() != Some(centre) {
+            self.far.set(self.find_farthest(centre));
+            self.far_from.set(Some(centre));
+        }
+        self.far.get().0.sqrt()
+    }
+
+    /// The squared distance of the farthest corner behind, and which it is.
+    fn find_farthest(&self, from: Point) -> (f64, u32) {
         let (first, last) = self.corners();
         let domain = self.hierarchy.ground.domain();
-        let walk = domain.walks()[domain.edge(first).walk as usize];
         let ranges = if first <= last {
             [first..last + 1, 0..0]
         } else {
+            let walk = domain.walks()[domain.edge(first).walk as usize];
             [first..walk.edges().end, walk.first..last + 1]
         };
-        let mut farthest = Farthest { domain, from: centre, ranges, distance2: 0.0, corner: first };
-        let [begin, end] = &farthest.ranges;
+        let [begin, end] = ranges.clone();
+        let mut farthest = Farthest { domain, from, ranges, distance2: 0.0, corner: first };
         if begin.len() + end.len() <= FEW {
-            begin.clone().chain(end.clone()).for_each(|corner| farthest.item(corner));
+            begin.chain(end).for_each(|corner| farthest.ask(corner));
         } else {
             for corner in [first, last, self.far.get().1] {
                 if corner != NONE {
@@ -608,7 +692,6 @@ impl Limb<'_> {
             }
             self.hierarchy.tree().visit(&mut farthest);
         }
-        self.far.set((farthest.distance2, farthest.corner));
-        farthest.distance2.sqrt()
+        (farthest.distance2, farthest.corner)
     }
 }

@@ -76,8 +76,8 @@ struct Peeled {
 pub(super) fn in_forest(axis: &MedialAxis) -> Result<Option<Centerline>, HasCycles> {
     let nothing = Peeled { left: 0, numbers: 0, reach: 0.0, by: NONE };
     let mut around = vec![nothing; axis.keypoints().len()];
-    for (number, path) in (0..).zip(axis.paths()) {
-        for end in [path.from, path.to] {
+    for (number, ends) in (0..).zip(axis.paths().all_ends()) {
+        for end in ends {
             around[end as usize].left += 1;
             around[end as usize].numbers ^= number;
         }
