@@ -182,9 +182,8 @@ impl MedialAxis {
         self.sites.shape(site)
     }
 
-    /// A table of those sites whose number is not `u32::MAX`; each gets its number there. `None` if they have
-    /// too many end points.
-    pub(crate) fn sites_among(&self, numbers: &mut [u32]) -> Option<SiteTable> {
+    /// A table of those sites whose number is not `u32::MAX`; each gets its number there.
+    pub(crate) fn sites_among(&self, numbers: &mut [u32]) -> SiteTable {
         self.sites.among(numbers)
     }
 

@@ -73,7 +73,7 @@ impl Fire {
         let mut arrivals = vec![none; keypoints.len()];
         let mut lengths = Vec::with_capacity(axis.paths().len());
         for (number, path) in (0..).zip(axis.paths()) {
-            lengths.push(axis.curve(&path).length());
+            lengths.push(axis.length_of(&path));
             for end in [path.from, path.to] {
                 let arrivals = &mut arrivals[end as usize];
                 arrivals.left += 1;

@@ -73,7 +73,7 @@ impl<'a> Ground<'a> {
         let mut next = 0;
         // Made only if sites do not come in boundary order.
         let mut sorted: Option<Vec<(Name, Site)>> = None;
-        let governor = |site: axis::Site| {
+        let mut governor = |site: axis::Site| -> Result<Site, Name> {
             /// Corners without a cell between two that have one, mostly.
             const NEAR: usize = 4;
             let ahead = (next..n_elements.min(next + NEAR)).map(&element);
@@ -101,7 +101,11 @@ impl<'a> Ground<'a> {
             };
             Ok(found)
         };
-        axis.sites().in_order().map(governor).collect()
+        let mut governors = Vec::with_capacity(axis.sites().len());
+        for site in axis.sites().in_order() {
+            governors.push(governor(site)?);
+        }
+        Ok(governors)
     }
 
     /// The place of an element along the boundary of the polygons; `None` for the walls.
@@ -120,14 +124,18 @@ impl<'a> Ground<'a> {
     /// Whether an axis lists an element so.
     #[inline]
     fn is_named(&self, element: Site, site: &axis::Site) -> bool {
-        // The name takes longest.
-        let edge = self.domain().edge(element.index());
-        let is_edge = site.kind == SiteKind::Edge;
-        let start = match self {
-            Self::Inside(_) => site.a,
-            Self::Outside(_) => site.b,
+        let domain = self.domain();
+        // The interior of the polygons is on the left, whatever the side.
+        let (start, end) = match self {
+            Self::Inside(_) => (site.a, site.b),
+            Self::Outside(_) => (site.b, site.a),
         };
-        element.is_edge() == is_edge && edge.start == start && self.named(element) == *site
+        let edge = domain.edge(element.index());
+        // The name takes longest.
+        element.is_edge() == (site.kind == SiteKind::Edge)
+            && edge.start == start
+            && end == if element.is_edge() { domain.end(element.index()) } else { start }
+            && Name::of(domain, element) == Name::from(site)
     }
 
     /// An element as an axis lists it.

@@ -58,11 +58,17 @@ impl Groups {
         Self { first, members: places }
     }
 
+    /// All members, group by group.
+    pub fn all(&self) -> &[u32] {
+        &self.members
+    }
+
     pub fn of(&self, group: u32) -> &[u32] {
         &self.members[self.range(group)]
     }
 
-    fn range(&self, group: u32) -> Range<usize> {
+    /// The places of a group's members among all of them.
+    pub fn range(&self, group: u32) -> Range<usize> {
         let k = group as usize;
         self.first[k] as usize..self.first[k + 1] as usize
     }

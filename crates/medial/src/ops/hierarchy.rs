@@ -60,12 +60,14 @@ pub enum HierarchyError {
 /// A complete exact axis with the order in which it burns.
 #[derive(Debug)]
 pub struct Hierarchy<'a> {
+    /// The domain as it was given, and the side of it that the axis is of.
+    pub(super) given: &'a Domain,
     ground: Ground<'a>,
     pub(super) axis: &'a MedialAxis,
     governors: Vec<Site>,
     pub(super) fire: Fire,
-    /// For each edge the length of the boundary from the start of its walk to the edge.
-    before: Vec<f64>,
+    /// For each edge the length of the boundary from the start of its walk to the edge, once it is asked for.
+    before: OnceLock<Vec<f64>>,
     /// The corners, once far ones are looked for.
     tree: OnceLock<BoundsTree>,
     /// Made when it is asked for.
@@ -127,6 +129,8 @@ pub(super) struct Limb<'h> {
     path: Path,
     left: Site,
     right: Site,
+    /// The first corner of the boundary behind.
+    first: u32,
     /// The disks at the start and at the end.
     disks: [(Point, f64); 2],
     /// Made when something between the two is asked for.
@@ -147,7 +151,7 @@ pub(super) struct Limb<'h> {
 const NONE: u32 = u32::MAX;
 
 /// Corners up to which each is asked how far it is.
-const FEW: usize = 16;
+const FEW: u32 = 16;
 
 /// A path, or a part of one, that burns in one direction.
 pub(super) struct Part {
@@ -192,18 +196,24 @@ impl<'a> Hierarchy<'a> {
     /// If the axis is not exact, or pruned, or not of this domain.
     pub fn new(domain: &'a Domain, axis: &'a MedialAxis) -> Result<Self, HierarchyError> {
         let (ground, governors) = grounded(domain, axis)?;
-        let edges = ground.domain().edges();
-        let mut before = vec![0.0; edges.len()];
-        for walk in ground.domain().walks() {
-            let mut sum = 0.0;
-            for edge in walk.edges() {
-                before[edge as usize] = sum;
-                sum += edges[edge as usize].length;
-            }
-        }
         let fire = Fire::new(axis);
-        let (tree, swallowing) = (OnceLock::new(), OnceLock::new());
-        Ok(Self { ground, axis, governors, fire, before, tree, swallowing })
+        let (before, tree, swallowing) = (OnceLock::new(), OnceLock::new(), OnceLock::new());
+        Ok(Self { given: domain, ground, axis, governors, fire, before, tree, swallowing })
+    }
+
+    fn before(&self) -> &[f64] {
+        self.before.get_or_init(|| {
+            let edges = self.ground.domain().edges();
+            let mut before = vec![0.0; edges.len()];
+            for walk in self.ground.domain().walks() {
+                let mut sum = 0.0;
+                for edge in walk.edges() {
+                    before[edge as usize] = sum;
+                    sum += edges[edge as usize].length;
+                }
+            }
+            before
+        })
     }
 
     fn tree(&self) -> &BoundsTree {
@@ -220,19 +230,22 @@ impl<'a> Hierarchy<'a> {
 
     /// The length of a walk from the start of one edge on to that of another one.
     fn length_between(&self, from: u32, to: u32) -> f64 {
-        let way = self.before[to as usize] - self.before[from as usize];
+        let before = self.before();
+        let way = before[to as usize] - before[from as usize];
         if to >= from {
             return way;
         }
         let domain = self.ground.domain();
         let walk = domain.walks()[domain.edge(from).walk as usize];
         let last = walk.edges().end - 1;
-        way + self.before[last as usize] + domain.edge(last).length
+        way + before[last as usize] + domain.edge(last).length
     }
 
     /// The path as the fire runs through it from one end.
     fn limb(&self, path: &Path, time: f64, reach: f64, far: (f64, u32)) -> Limb<'_> {
         let governor = |site: u32| self.governors[site as usize];
+        let (left, right) = (governor(path.left), governor(path.right));
+        let start = left.index();
         let disk = |keypoint: u32| {
             let Keypoint { position, radius, .. } = self.axis.keypoints().at(keypoint);
             (position, radius)
@@ -240,8 +253,9 @@ impl<'a> Hierarchy<'a> {
         Limb {
             hierarchy: self,
             path: *path,
-            left: governor(path.left),
-            right: governor(path.right),
+            left,
+            right,
+            first: if left.is_edge() { self.ground.domain().edge(start).next } else { start },
             disks: [disk(path.from), disk(path.to)],
             curve: OnceCell::new(),
             time,
@@ -454,33 +468,24 @@ pub(super) fn grounded<'a>(
     Ok((ground, governors))
 }
 
-/// Looks for the farthest corner of a walk, in a cyclic range in two parts.
+/// Looks for the farthest corner.
 struct Farthest<'a> {
     domain: &'a Domain,
     from: Point,
-    ranges: [Range<u32>; 2],
     distance2: f64,
     corner: u32,
 }
 
 impl Visitor for Farthest<'_> {
-    fn enters(&self, bounds: &Rect, items: Range<u32>) -> bool {
-        let meets = |range: &Range<u32>| items.start < range.end && range.start < items.end;
+    #[inline]
+    fn enters(&self, bounds: &Rect, _: Range<u32>) -> bool {
         let (low, high) = (self.from - bounds.min, bounds.max - self.from);
         let far = Point::new(low.x.abs().max(high.x.abs()), low.y.abs().max(high.y.abs()));
-        far.norm2() > self.distance2 && self.ranges.iter().any(meets)
+        far.norm2() > self.distance2
     }
 
-    fn item(&mut self, corner: u32) {
-        if self.ranges.iter().any(|range| range.contains(&corner)) {
-            self.ask(corner);
-        }
-    }
-}
-
-impl Farthest<'_> {
     #[inline]
-    fn ask(&mut self, corner: u32) {
+    fn item(&mut self, corner: u32) {
         let distance2 = (self.domain.edge(corner).start - self.from).norm2();
         if distance2 > self.distance2 {
             (self.distance2, self.corner) = (distance2, corner);
@@ -498,6 +503,7 @@ impl Limb<'_> {
         })
     }
 
+    #[inline]
     pub fn radius(&self, u: f64) -> f64 {
         if u <= 0.0 {
             self.disks[0].1
@@ -508,6 +514,7 @@ impl Limb<'_> {
         }
     }
 
+    #[inline]
     fn centre(&self, u: f64) -> Point {
         if u <= 0.0 {
             self.disks[0].0
@@ -570,14 +577,18 @@ impl Limb<'_> {
             (None, None) => (0.0, end),
         };
         let at = |u: f64| low + (high - low) * u;
+        // No more than the threshold is lost, unless that is reached at the very end.
+        let last_below = |[before, after]: [f64; 2]| at(if after == 1.0 { after } else { before });
+        if measure == Measure::Excess {
+            // The usual one, which is asked for at every leaf.
+            return last_below(crossing(|u| self.excess(at(u)) - threshold));
+        }
         let missing = |u: f64| self.value(measure, at(u)) - threshold;
         // What swallows a disk may be another one a little farther on.
         if measure == Measure::Scale {
             return at(bisected(missing));
         }
-        // No more than the threshold is lost, unless that is reached at the very end.
-        let [before, after] = crossing(missing);
-        at(if after == 1.0 { after } else { before })
+        last_below(crossing(missing))
     }
 
     /// The excess at the start, from the corners behind all that ends there.
@@ -607,7 +618,7 @@ impl Limb<'_> {
         let length = || self.curve().piece(0.0, u).length();
         let behind = || 2.0 * self.curve().growth_at(u).clamp(-1.0, 1.0).acos();
         let value = match measure {
-            Measure::Excess => self.farthest(centre) - radius,
+            Measure::Excess => self.excess(u),
             Measure::RelativeExcess | Measure::Prominence if radius > 0.0 => {
                 (self.farthest(centre) - radius) / radius
             }
@@ -642,10 +653,7 @@ impl Limb<'_> {
 
     /// The first and the last corner of the boundary behind, between the footpoints.
     pub fn corners(&self) -> (u32, u32) {
-        let left = self.left.index();
-        let first =
-            if self.left.is_edge() { self.hierarchy.ground.domain().edge(left).next } else { left };
-        (first, self.right.index())
+        (self.first, self.right.index())
     }
 
     /// The length of the boundary behind, between the footpoints.
@@ -661,36 +669,56 @@ impl Limb<'_> {
             + self.foot(self.right, centre).0
     }
 
+    /// The distance of the farthest corner behind less the radius.
+    #[inline]
+    fn excess(&self, u: f64) -> f64 {
+        (self.farthest(self.centre(u)) - self.radius(u)).max(0.0)
+    }
+
     /// The distance of the farthest corner behind.
+    #[inline]
     fn farthest(&self, centre: Point) -> f64 {
         if self.far_from.get() != Some(centre) {
-            self.far.set(self.find_farthest(centre));
+            let (first, last) = self.corners();
+            let is_few = first <= last && last - first < FEW;
+            let far = if is_few { self.farthest_of_few(centre) } else { self.search_far(centre) };
+            self.far.set(far);
             self.far_from.set(Some(centre));
         }
         self.far.get().0.sqrt()
     }
 
-    /// The squared distance of the farthest corner behind, and which it is.
-    fn find_farthest(&self, from: Point) -> (f64, u32) {
+    /// The squared distance of the farthest corner behind, and which it is, where these are few in a row.
+    #[inline]
+    fn farthest_of_few(&self, from: Point) -> (f64, u32) {
         let (first, last) = self.corners();
         let domain = self.hierarchy.ground.domain();
+        let mut farthest = Farthest { domain, from, distance2: 0.0, corner: first };
+        (first..=last).for_each(|corner| farthest.item(corner));
+        (farthest.distance2, farthest.corner)
+    }
+
+    /// The same for any number of them, or around the start of their walk.
+    fn search_far(&self, from: Point) -> (f64, u32) {
+        let (first, last) = self.corners();
+        let domain = self.hierarchy.ground.domain();
+        let mut farthest = Farthest { domain, from, distance2: 0.0, corner: first };
         let ranges = if first <= last {
             [first..last + 1, 0..0]
         } else {
             let walk = domain.walks()[domain.edge(first).walk as usize];
             [first..walk.edges().end, walk.first..last + 1]
         };
-        let [begin, end] = ranges.clone();
-        let mut farthest = Farthest { domain, from, ranges, distance2: 0.0, corner: first };
-        if begin.len() + end.len() <= FEW {
-            begin.chain(end).for_each(|corner| farthest.ask(corner));
-        } else {
-            for corner in [first, last, self.far.get().1] {
-                if corner != NONE {
-                    farthest.item(corner);
-                }
-            }
-            self.hierarchy.tree().visit(&mut farthest);
+        if ranges.iter().map(ExactSizeIterator::len).sum::<usize>() <= FEW as usize {
+            ranges.into_iter().flatten().for_each(|corner| farthest.item(corner));
+            return (farthest.distance2, farthest.corner);
+        }
+        // One that is far saves most of the search.
+        let known = self.far.get().1;
+        let is_behind = ranges.iter().any(|range| range.contains(&known));
+        farthest.item(if is_behind { known } else { last });
+        for range in ranges.into_iter().filter(|range| !range.is_empty()) {
+            self.hierarchy.tree().visit_within(range, &mut farthest);
         }
         (farthest.distance2, farthest.corner)
     }

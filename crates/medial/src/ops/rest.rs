@@ -62,13 +62,10 @@ impl<'a> Rest<'a> {
     pub fn finish(self, roots: &[u32], lost: &[(u32, f64)]) -> Pruned {
         let Self { axis, kept, mut error } = self;
         let whole = [0.0, 1.0];
-        let all = || {
+        if kept.iter().all(|part| *part == whole) {
             let origin = |path| Origin { path, part: whole };
             let origins = (0..axis.paths().len() as u32).map(origin).collect();
-            Pruned { axis: axis.clone(), error: 0.0, origins }
-        };
-        if kept.iter().all(|part| *part == whole) {
-            return all();
+            return Pruned { axis: axis.clone(), error: 0.0, origins };
         }
         let is_left = |&[low, high]: &[f64; 2]| low < high || is_root(low, high);
         let is_tip = |&[low, high]: &[f64; 2]| [low > 0.0, high < 1.0 && low < high];
@@ -100,7 +97,7 @@ impl<'a> Rest<'a> {
             *number = n;
             n += 1;
         }
-        let Some(table) = axis.sites_among(&mut sites) else { return all() };
+        let table = axis.sites_among(&mut sites);
         let site = |site: u32| sites[site as usize];
         let mut points = KeypointTable::with_room(n as usize + n_tips);
         for (k, _) in (0..).zip(&number).filter(|(_, number)| **number != u32::MAX) {
