@@ -60,6 +60,8 @@ Beside its figure 9 the paper prints `CP TIME: .569 SEC`; its program was writte
 OPERATIONS = """What operations take, on the axis that *engine* made: without reading, validation and writing.
 *hierarchy* is the order of burning with the potential of every path, *significance* the same with the excess; both are parts of what follows.
 *prune* removes what moves the boundary by less than a thousandth of the diagonal of the box, *smooth* limbs with a prominence below 0.1, *branches* are those of the whole axis with their primitives, areas and boundary, *reconstruct* gives the polygons back, *outline* does so from the graph, and *centerline* is the longest line.
+*sum* is that of these six, each by itself; *all together* does all six in one run of a program that burns the axis once (`Hierarchy::pruned`, `smoothed` and `centerlines`).
+The axis is *engine*, or *axis*: that and *validation*, as a user runs them.
 
 """
 

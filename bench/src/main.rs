@@ -118,6 +118,20 @@ fn medial_bench_operation(name: &str, domain: &Domain, axis: &MedialAxis) -> Res
         "reconstruct" => polygons_of(axis)?.len(),
         "outline" => Outline::new(axis)?.polygons.len(),
         "centerline" => centerlines(domain, axis, &CenterlineOptions::default())?.len(),
+        "together" => {
+            let hierarchy = Hierarchy::new(domain, axis)?;
+            let pruned = hierarchy.pruned(Measure::Excess, 1e-3 * bounds);
+            let smooth = hierarchy.smoothed(Measure::Prominence, 0.1)?;
+            let lines = hierarchy.centerlines(&CenterlineOptions::default())?;
+            let (branches, outline) = (branches(axis), Outline::new(axis)?);
+            let polygons = polygons_of(axis)?;
+            pruned.axis.paths().len()
+                + smooth.outline.polygons.len()
+                + lines.len()
+                + branches.len()
+                + outline.polygons.len()
+                + polygons.len()
+        }
         _ => return Err(format!("no operation {name}").into()),
     })
 }

@@ -250,6 +250,7 @@ impl Curve {
     }
 
     /// The length of the curve.
+    #[inline]
     #[must_use]
     pub fn length(&self) -> f64 {
         let Form::Parabola { d, x, .. } = self.form else {
@@ -380,6 +381,18 @@ impl Curve {
             }
             Form::Corners { half, s } => slope(s, half),
             Form::Parabola { d, x, .. } => slope(x, d),
+        }
+    }
+
+    /// Whether the radius grows there.
+    #[inline]
+    pub(crate) fn grows_at(&self, u: f64) -> bool {
+        match self.form {
+            Form::Linear => self.growth_at(u) > 0.0,
+            Form::Corners { s: [a, b], .. } | Form::Parabola { x: [a, b], .. } => {
+                let x = a * (1.0 - u) + b * u;
+                if a <= b { x > 0.0 } else { x < 0.0 }
+            }
         }
     }
 
@@ -538,6 +551,7 @@ impl MedialAxis {
     ///
     /// # Panics
     /// If `path` names a keypoint or a site the axis does not have.
+    #[inline]
     #[must_use]
     pub fn curve(&self, path: &Path) -> Curve {
         let end = |k: u32| {
@@ -565,6 +579,16 @@ impl MedialAxis {
                 form: Form::Linear,
             },
         }
+    }
+
+    /// The length of that curve; where it is a line for sure its form is not asked for.
+    #[inline]
+    pub(crate) fn length_of(&self, path: &Path) -> f64 {
+        if self.site_shape(path.left).kind == self.site_shape(path.right).kind {
+            let [from, to] = [path.from, path.to].map(|k| self.keypoints().at(k).position);
+            return (to - from).norm();
+        }
+        self.curve(path).length()
     }
 }
 
@@ -657,6 +681,8 @@ pub(crate) fn crossing(value: impl Fn(f64) -> f64) -> [f64; 2] {
     /// Steps of bisection down to that, and two to spare.
     const MOST: i32 = 53;
     let (mut low, mut high) = ((0.0, value(0.0)), (1.0, value(1.0)));
+    // What the width may still be, so that bisection ends in time.
+    let mut allowed = ENOUGH * 2.0_f64.powi(MOST);
     let is_finite = low.1.is_finite() && high.1.is_finite();
     if !is_finite || low.1 >= 0.0 || high.1 <= 0.0 {
         let place = if low.1 >= 0.0 {
@@ -668,7 +694,7 @@ pub(crate) fn crossing(value: impl Fn(f64) -> f64) -> [f64; 2] {
         };
         return [place; 2];
     }
-    for step in 0..=MOST {
+    for _ in 0..=MOST {
         let width = high.0 - low.0;
         if width <= ENOUGH {
             break;
@@ -678,7 +704,8 @@ pub(crate) fn crossing(value: impl Fn(f64) -> f64) -> [f64; 2] {
         let towards = (middle - falsi).signum();
         let moved = (0.2 * width * width).max(0.5 * ENOUGH).min((middle - falsi).abs());
         let near = falsi + towards * moved;
-        let affordable = (ENOUGH * 2.0_f64.powi(MOST - step) - 0.5 * width).max(0.0);
+        let affordable = (allowed - 0.5 * width).max(0.0);
+        allowed *= 0.5;
         let u =
             if (near - middle).abs() <= affordable { near } else { middle - towards * affordable };
         let u = if low.0 < u && u < high.0 { u } else { middle };

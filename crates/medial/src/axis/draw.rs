@@ -69,9 +69,8 @@ impl MedialAxis {
     #[must_use]
     pub fn degrees(&self) -> Vec<u32> {
         let mut degrees = vec![0; self.keypoints().len()];
-        for path in self.paths() {
-            degrees[path.from as usize] += 1;
-            degrees[path.to as usize] += 1;
+        for end in self.paths().all_ends().flatten() {
+            degrees[end as usize] += 1;
         }
         degrees
     }

@@ -105,6 +105,7 @@ impl KeypointTable {
         self.lists.truncate(len);
     }
 
+    #[inline]
     pub fn at(&self, keypoint: u32) -> Keypoint {
         let k = keypoint as usize;
         let (position, radius) = self.disks[k];
@@ -124,6 +125,49 @@ impl KeypointTable {
             [list @ .., TWO] => list,
             list => list,
         }
+    }
+
+    /// The governor of a keypoint after a place in its list, and the one at that place.
+    #[inline]
+    pub fn neighbours(&self, keypoint: u32, place: u8) -> (u32, u32) {
+        let list = &self.lists[keypoint as usize];
+        let place = usize::from(place);
+        match list[2] {
+            MORE => {
+                let list = self.governors(keypoint);
+                (list[if place + 1 < list.len() { place + 1 } else { 0 }], list[place])
+            }
+            third => {
+                // Whether there are two or three is hard to foresee, so nothing branches on it.
+                let last = if third == TWO { 1 } else { 2 };
+                (list[if place < last { place + 1 } else { 0 }], list[place])
+            }
+        }
+    }
+
+    /// Adds a keypoint of another table as one of a kind, with other numbers of its governors in the same
+    /// order.
+    #[inline]
+    pub fn push_of(
+        &mut self,
+        other: &Self,
+        keypoint: u32,
+        kind: KeypointKind,
+        site: impl Fn(u32) -> u32,
+    ) {
+        let list = match other.lists[keypoint as usize] {
+            [a, b, TWO] => [site(a), site(b), TWO],
+            [first, n, MORE] => {
+                let start = self.more.len() as u32;
+                let governors = &other.more[first as usize..][..n as usize];
+                self.more.extend(governors.iter().map(|&governor| site(governor)));
+                [start, n, MORE]
+            }
+            list => list.map(site),
+        };
+        self.disks.push(other.disks[keypoint as usize]);
+        self.kinds.push(kind);
+        self.lists.push(list);
     }
 
     /// Governors of a keypoint, if there is such a keypoint and they are three.
@@ -182,6 +226,7 @@ impl Keypoints<'_> {
     ///
     /// # Panics
     /// If the axis has no such keypoint.
+    #[inline]
     #[must_use]
     pub fn at(self, number: u32) -> Keypoint {
         self.0.at(number)

@@ -192,19 +192,45 @@ impl MedialAxis {
         self.sites.shape(site)
     }
 
-    /// A table of those sites whose number is not `u32::MAX`; each gets its number there. `None` if they have
-    /// too many end points.
-    pub(crate) fn sites_among(&self, numbers: &mut [u32]) -> Option<SiteTable> {
+    /// A table of those sites whose number is not `u32::MAX`; each gets its number there.
+    pub(crate) fn sites_among(&self, numbers: &mut [u32]) -> SiteTable {
         self.sites.among(numbers)
     }
 
+    /// Adds a keypoint to a table as one of a kind, with other numbers of its governors in the same order.
+    #[inline]
+    pub(crate) fn copy_keypoint(
+        &self,
+        table: &mut KeypointTable,
+        keypoint: u32,
+        kind: KeypointKind,
+        site: impl Fn(u32) -> u32,
+    ) {
+        table.push_of(&self.keypoints, keypoint, kind, site);
+    }
+
+    /// Adds a path to a table between two keypoints, of which the first one is such a copy of that where it
+    /// starts here.
+    #[inline]
+    pub(crate) fn copy_path(
+        &self,
+        table: &mut PathTable,
+        path: u32,
+        ends: [u32; 2],
+        site: impl Fn(u32) -> u32,
+    ) {
+        table.push_of(&self.paths, path, ends, site);
+    }
+
     /// All keypoints.
+    #[inline]
     #[must_use]
     pub fn keypoints(&self) -> Keypoints<'_> {
         Keypoints(&self.keypoints)
     }
 
     /// All paths.
+    #[inline]
     #[must_use]
     pub fn paths(&self) -> Paths<'_> {
         Paths { paths: &self.paths, keypoints: &self.keypoints }
@@ -215,6 +241,7 @@ impl MedialAxis {
     ///
     /// # Panics
     /// If the axis has no such keypoint.
+    #[inline]
     #[must_use]
     pub fn governors(&self, keypoint: u32) -> &[u32] {
         self.keypoints.governors(keypoint)

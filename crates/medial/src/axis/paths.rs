@@ -98,18 +98,35 @@ impl PathTable {
     }
 
     /// A path, with the keypoints between which it was added.
+    #[inline]
     pub fn at(&self, path: u32, keypoints: &KeypointTable) -> Path {
         let [from, to] = self.ends[path as usize];
         let place = self.places[path as usize];
         let (left, right) = if place == LISTED {
-            let found = self.listed.partition_point(|l| l.path < path);
-            let Listed { left, right, .. } = self.listed[found];
+            let Listed { left, right, .. } = self.listed_at(path);
             (left, right)
         } else {
-            let (list, place) = (keypoints.governors(from), usize::from(place));
-            (list[if place + 1 < list.len() { place + 1 } else { 0 }], list[place])
+            keypoints.neighbours(from, place)
         };
         Path { from, to, left, right }
+    }
+
+    #[cold]
+    fn listed_at(&self, path: u32) -> Listed {
+        self.listed[self.listed.partition_point(|l| l.path < path)]
+    }
+
+    /// Adds a path of another table between two keypoints. The one where it starts has the governors of that
+    /// where it starts there, in their order, but for their numbers.
+    #[inline]
+    pub fn push_of(&mut self, other: &Self, path: u32, ends: [u32; 2], site: impl Fn(u32) -> u32) {
+        let place = other.places[path as usize];
+        if place == LISTED {
+            let Listed { left, right, .. } = other.listed_at(path);
+            self.listed.push(Listed { path: self.len(), left: site(left), right: site(right) });
+        }
+        self.ends.push(ends);
+        self.places.push(place);
     }
 
     /// Whether all keypoints and all governors that are listed are less than these numbers.
@@ -152,7 +169,7 @@ pub struct Paths<'a> {
     pub(super) keypoints: &'a KeypointTable,
 }
 
-impl Paths<'_> {
+impl<'a> Paths<'a> {
     /// How many there are.
     #[must_use]
     pub fn len(self) -> usize {
@@ -163,9 +180,21 @@ impl Paths<'_> {
     ///
     /// # Panics
     /// If the axis has no such path.
+    #[inline]
     #[must_use]
     pub fn at(self, number: u32) -> Path {
         self.paths.at(number, self.keypoints)
+    }
+
+    /// The keypoints where a path starts and ends; who does not need its governors saves most of the time.
+    #[inline]
+    pub(crate) fn ends(self, number: u32) -> [u32; 2] {
+        self.paths.ends[number as usize]
+    }
+
+    /// The same for all of them, in their order.
+    pub(crate) fn all_ends(self) -> impl ExactSizeIterator<Item = [u32; 2]> + use<'a> {
+        self.paths.ends.iter().copied()
     }
 }
 

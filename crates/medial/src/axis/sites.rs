@@ -144,27 +144,58 @@ impl SiteTable {
         self.points.len() as u32 - 1
     }
 
-    /// The sites that have a number other than the largest, which is set to that in the new table; `None`
-    /// if they have too many end points.
-    pub fn among(&self, numbers: &mut [u32]) -> Option<Self> {
-        let (n, walks) = (self.records.len(), self.runs.len());
-        let mut table = Self::with_room(n, self.points.len(), walks);
+    /// The sites that have a number other than the largest, which is set to that in the new table.
+    pub fn among(&self, numbers: &mut [u32]) -> Self {
+        // Points keep their order, so whatever ends at the next point still does.
+        let mut points = vec![0_u32; self.points.len()];
+        let mut kept = 0;
+        for (number, _) in (0..).zip(&*numbers).filter(|(_, new)| **new != u32::MAX) {
+            let [start, end] = self.ends(number);
+            (points[start as usize], points[end as usize]) = (1, 1);
+            kept += 1;
+        }
+        let n_points = points.iter().sum::<u32>() as usize;
+        let mut table = Self::with_room(kept, n_points, 0);
+        for (point, place) in self.points.iter().zip(&mut points).filter(|(_, place)| **place == 1)
+        {
+            *place = table.points.len() as u32;
+            table.points.push(*point);
+        }
         let mut runs = self.runs.iter().peekable();
-        let (mut polygon, mut ring) = (0, 0);
+        let mut run = None;
         for (number, new) in (0..).zip(numbers) {
-            if let Some(run) = runs.next_if(|run| run.first == number) {
-                (polygon, ring) = (run.polygon, run.ring);
-            }
+            run = runs.next_if(|run| run.first == number).or(run);
             if *new == u32::MAX {
                 continue;
             }
-            let (SiteShape { kind, a, b }, part) = self.shape_and_part(number);
-            let index = self.records[number as usize].index;
             *new = table.len();
-            table.put(&Site { kind, polygon, ring, index, part, a, b })?;
+            if let Some(&whole) = run.take() {
+                table.runs.push(Run { first: *new, ..whole });
+            }
+            let Record { start, index } = self.records[number as usize];
+            let place = points[(start & POINT) as usize];
+            if start & LISTED != 0 {
+                let (part, end) = self.listed_at(number);
+                table.listed.push(Listed { site: *new, part, end: points[end as usize] });
+            }
+            table.records.push(Record { start: start & !POINT | place, index });
         }
         table.shrink();
-        Some(table)
+        table
+    }
+
+    /// All sites, without a search for the ring of each.
+    pub fn in_order(&self) -> impl Iterator<Item = Site> {
+        let mut runs = self.runs.iter().peekable();
+        let (mut polygon, mut ring) = (0, 0);
+        (0..self.len()).map(move |number| {
+            if let Some(run) = runs.next_if(|run| run.first == number) {
+                (polygon, ring) = (run.polygon, run.ring);
+            }
+            let (SiteShape { kind, a, b }, part) = self.shape_and_part(number);
+            let index = self.records[number as usize].index;
+            Site { kind, polygon, ring, index, part, a, b }
+        })
     }
 
     /// Gives back the room that was not needed.
@@ -198,6 +229,18 @@ impl SiteTable {
     #[inline]
     pub fn shape(&self, number: u32) -> SiteShape {
         self.shape_and_part(number).0
+    }
+
+    /// The numbers of the points where a site starts and ends.
+    #[inline]
+    fn ends(&self, number: u32) -> [u32; 2] {
+        let start = self.records[number as usize].start;
+        let end = match start & (VERTEX | LISTED) {
+            0 => (start & POINT) + 1,
+            VERTEX => start & POINT,
+            _ => self.listed_at(number).1,
+        };
+        [start & POINT, end]
     }
 
     #[inline(always)]
@@ -248,11 +291,16 @@ impl fmt::Debug for SiteTable {
 #[derive(Clone, Copy)]
 pub struct Sites<'a>(pub(super) &'a SiteTable);
 
-impl Sites<'_> {
+impl<'a> Sites<'a> {
     /// How many there are.
     #[must_use]
     pub fn len(self) -> usize {
         self.0.records.len()
+    }
+
+    /// All of them in their order, without a search for the ring of each.
+    pub(crate) fn in_order(self) -> impl Iterator<Item = Site> + use<'a> {
+        self.0.in_order()
     }
 
     /// Site number `number`, counted as [`Path`](super::Path) and
@@ -341,5 +389,22 @@ mod tests {
             (0..6).map(|k| site(SiteKind::Edge, 0, k as u32, ring[k], ring[(k + 1) % 6])).collect();
         let table = kept(&sites);
         assert!(Sites(&table).iter().eq(sites.iter().copied()));
+    }
+
+    #[test]
+    fn some_sites_are_a_table_of_their_own() {
+        let sites = rings();
+        for mask in 0..1_u32 << sites.len() {
+            let is_kept = |k: u32| mask >> k & 1 == 1;
+            let some: Vec<Site> =
+                (0..).zip(&sites).filter(|s| is_kept(s.0)).map(|s| *s.1).collect();
+            let number = |k: u32| if is_kept(k) { 0 } else { u32::MAX };
+            let mut numbers: Vec<u32> = (0..sites.len() as u32).map(number).collect();
+            let table = kept(&sites).among(&mut numbers);
+            assert_eq!(table, kept(&some));
+            assert!(table.points.len() <= kept(&some).points.len());
+            numbers.retain(|&number| number != u32::MAX);
+            assert!(numbers.into_iter().eq(0..some.len() as u32));
+        }
     }
 }

@@ -20,6 +20,7 @@ pub struct Name {
 
 impl From<&axis::Site> for Name {
     /// The name that an axis gives to one of its sites.
+    #[inline]
     fn from(site: &axis::Site) -> Self {
         let axis::Site { kind, polygon, ring, index, part, .. } = *site;
         Self { kind, polygon, ring, index, part }
@@ -28,6 +29,7 @@ impl From<&axis::Site> for Name {
 
 impl Name {
     /// The name of a site of the domain; of any corner, also of one that is no site of an axis.
+    #[inline]
     #[must_use]
     pub fn of(domain: &Domain, site: Site) -> Self {
         let origin = domain.origin(site.index());

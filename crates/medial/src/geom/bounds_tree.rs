@@ -66,7 +66,8 @@ impl Rect {
 }
 
 /// Children of a node, and items of a leaf.
-const FAN: usize = 8;
+const FAN: usize = 1 << FAN_BITS;
+const FAN_BITS: u32 = 3;
 
 /// What a walk through a [`BoundsTree`] does with what it meets.
 pub trait Visitor {
@@ -165,6 +166,51 @@ impl BoundsTree {
             }
         }
     }
+
+    /// The same for the items of a range alone, without a way from the root to them.
+    #[inline]
+    pub fn visit_within(&self, items: Range<u32>, visitor: &mut impl Visitor) {
+        let (mut low, mut high) = (items.start - self.base, items.end - self.base);
+        let fan = FAN as u32;
+        // What fills no node of the level above, at both ends, then that level.
+        while low < high && !low.is_multiple_of(fan) {
+            visitor.item(self.base + low);
+            low += 1;
+        }
+        while low < high && !high.is_multiple_of(fan) {
+            high -= 1;
+            visitor.item(self.base + high);
+        }
+        for level in 0..self.levels.len() {
+            (low, high) = (low / fan, high / fan);
+            while low < high && !low.is_multiple_of(fan) {
+                self.descend(level, low, visitor);
+                low += 1;
+            }
+            while low < high && !high.is_multiple_of(fan) {
+                high -= 1;
+                self.descend(level, high, visitor);
+            }
+            if low == high {
+                return;
+            }
+        }
+    }
+
+    /// Shows a node that is full, and what is below.
+    fn descend(&self, level: usize, number: u32, visitor: &mut impl Visitor) {
+        let items =
+            [number, number + 1].map(|k| self.base + (k << (FAN_BITS * (level as u32 + 1))));
+        let bounds = &self.boxes[(self.levels[level] + number) as usize];
+        if !visitor.enters(bounds, items[0]..items[1]) {
+            return;
+        }
+        let below = FAN as u32 * number..FAN as u32 * (number + 1);
+        match level {
+            0 => below.for_each(|item| visitor.item(self.base + item)),
+            _ => below.for_each(|node| self.descend(level - 1, node, visitor)),
+        }
+    }
 }
 
 #[cfg(test)]
@@ -203,6 +249,35 @@ mod tests {
                     }
                 }
                 assert!(near.found.is_sorted());
+            }
+        }
+    }
+
+    #[test]
+    fn a_visit_within_a_range_meets_its_items_once() {
+        struct All(Vec<u32>);
+
+        impl Visitor for All {
+            fn enters(&self, bounds: &Rect, items: Range<u32>) -> bool {
+                let [first, last] = [items.start, items.end - 1].map(f64::from);
+                assert_eq!((bounds.min.x, bounds.max.x), (first, last));
+                true
+            }
+            fn item(&mut self, item: u32) {
+                self.0.push(item);
+            }
+        }
+
+        for n in [1_u32, 7, 8, 9, 64, 65, 512, 700] {
+            let corner = |k: u32| Rect::EMPTY.with(Point::new(f64::from(k), 0.0));
+            let tree = BoundsTree::new(10, n, corner);
+            for first in 10..10 + n {
+                for last in (first..10 + n).step_by(1 + n as usize / 50).chain([9 + n]) {
+                    let mut all = All(Vec::new());
+                    tree.visit_within(first..last + 1, &mut all);
+                    all.0.sort_unstable();
+                    assert!(all.0.into_iter().eq(first..last + 1), "{n} {first} {last}");
+                }
             }
         }
     }

@@ -183,11 +183,15 @@ pub struct BoundaryPiece {
 pub fn branches(axis: &MedialAxis) -> Branches<'_> {
     let incidence = Groups::paths_at_keypoints(axis);
     let n_paths = axis.paths().len();
+    let n = axis.keypoints().len() as u32;
+    let degree = |keypoint: u32| incidence.of(keypoint).len();
+    // Each branch but closed ones has two ends.
+    let n_ends: usize = (0..n).map(degree).filter(|&degree| degree != 2).sum();
     let mut branches = Branches {
         axis,
         passed: Vec::with_capacity(n_paths),
         pieces: Vec::with_capacity(n_paths),
-        records: Vec::new(),
+        records: Vec::with_capacity(n_ends / 2),
     };
     let mut is_used = vec![false; n_paths];
     let mut follow = |start: u32, number: u32, is_closed: bool| {
@@ -211,10 +215,8 @@ pub fn branches(axis: &MedialAxis) -> Branches<'_> {
             let Some(&next) = around.iter().find(|&&k| !is_used[k as usize]) else { break };
             number = next;
         }
-        branches.finish(open);
+        branches.finish(&open);
     };
-    let n = axis.keypoints().len() as u32;
-    let degree = |keypoint: u32| incidence.of(keypoint).len();
     let leaves = (0..n).filter(|&k| degree(k) == 1);
     let junctions = (0..n).filter(|&k| degree(k) > 2);
     for keypoint in leaves.chain(junctions) {
@@ -229,24 +231,26 @@ pub fn branches(axis: &MedialAxis) -> Branches<'_> {
 }
 
 /// A branch that is not at its end yet.
+#[derive(Default)]
 struct Open {
-    record: BranchRecord,
+    /// Where it starts in the tables of paths and pieces.
+    passed: u32,
+    pieces: u32,
+    is_closed: bool,
     sum: Sum,
     piece: Sum,
     banks: [Bank; 2],
+    /// The point of the axis where it ends so far.
+    to: Point,
 }
 
-/// The boundary on one side of a branch so far: its last site, and the last of its points.
-#[derive(Clone, Copy)]
+/// The boundary on one side of a branch so far: its last site, and where on that it is met first.
+#[derive(Clone, Copy, Default)]
 struct Bank {
-    site: u32,
-    last: Point,
-    to: Point,
+    site: Option<u32>,
+    first: Point,
     length: f64,
 }
-
-/// No site.
-const NONE: u32 = u32::MAX;
 
 impl<'a> Branches<'a> {
     /// How many there are.
@@ -268,14 +272,7 @@ impl<'a> Branches<'a> {
 
     fn begin(&self, is_closed: bool) -> Open {
         let (passed, pieces) = (self.passed.len() as u32, self.pieces.len() as u32);
-        let bank = Bank { site: NONE, last: Point::default(), to: Point::default(), length: 0.0 };
-        let (extent, boundary) = (Extent::NOTHING, [0.0; 2]);
-        Open {
-            record: BranchRecord { passed, pieces, is_closed, extent, boundary },
-            sum: Sum::default(),
-            piece: Sum::default(),
-            banks: [bank; 2],
-        }
+        Open { passed, pieces, is_closed, ..Open::default() }
     }
 
     /// Adds a path at the end of the branch that is open.
@@ -287,8 +284,9 @@ impl<'a> Branches<'a> {
         let curve = axis.curve_between(&sites, disks);
         for ((bank, site), number) in open.banks.iter_mut().zip(&sites).zip([path.left, path.right])
         {
-            bank.pass(number, site, disks[0].0, disks[1].0);
+            bank.pass(number, site, disks[0].0);
         }
+        open.to = disks[1].0;
         let place = self.passed.len() as u32;
         self.passed.push(number);
         match curve.neck() {
@@ -311,7 +309,7 @@ impl<'a> Branches<'a> {
     fn add(&mut self, open: &mut Open, kind: Kind, place: u32, at_neck: [bool; 2], curve: &Curve) {
         let extent = Extent::of(curve);
         open.sum.add(&extent);
-        let goes_on = self.pieces.len() > open.record.pieces as usize;
+        let goes_on = self.pieces.len() > open.pieces as usize;
         if let Some(last) = self.pieces.last_mut().filter(|last| goes_on && last.kind == kind) {
             open.piece.add(&extent);
             (last.passed[1], last.at_neck[1]) = (place, at_neck[1]);
@@ -323,10 +321,11 @@ impl<'a> Branches<'a> {
         self.pieces.push(PieceRecord { kind, extent, passed: [place; 2], at_neck });
     }
 
-    fn finish(&mut self, open: Open) {
-        let Open { record, sum, banks, .. } = open;
-        let boundary = banks.map(|bank| bank.length + (bank.to - bank.last).norm());
-        self.records.push(BranchRecord { extent: sum.extent(), boundary, ..record });
+    fn finish(&mut self, open: &Open) {
+        let &Open { passed, pieces, is_closed, .. } = open;
+        let boundary = open.banks.map(|bank| bank.length_up_to(self.axis, open.to));
+        let extent = open.sum.extent();
+        self.records.push(BranchRecord { passed, pieces, is_closed, extent, boundary });
     }
 
     fn path(&self, passed: u32) -> Path {
@@ -336,16 +335,22 @@ impl<'a> Branches<'a> {
 }
 
 impl Bank {
-    /// Goes on along a site, between the footpoints of two points.
-    fn pass(&mut self, number: u32, site: &SiteShape, from: Point, to: Point) {
-        if number != self.site {
+    /// Goes on along a site, from the footpoint of a point.
+    fn pass(&mut self, number: u32, site: &SiteShape, from: Point) {
+        if self.site != Some(number) {
             let first = foot_on(site.a, site.b, from);
-            if self.site != NONE {
-                self.length += (first - self.last).norm();
+            if self.site.is_some() {
+                self.length += (first - self.first).norm();
             }
-            (self.site, self.last) = (number, first);
+            (self.site, self.first) = (Some(number), first);
         }
-        self.to = foot_on(site.a, site.b, to);
+    }
+
+    /// Its length up to the footpoint of a point.
+    fn length_up_to(&self, axis: &MedialAxis, to: Point) -> f64 {
+        let Some(site) = self.site else { return 0.0 };
+        let SiteShape { a, b, .. } = axis.site_shape(site);
+        self.length + (foot_on(a, b, to) - self.first).norm()
     }
 }
 
@@ -516,7 +521,7 @@ fn kind(sites: &[SiteShape; 2], curve: &Curve, trend: Option<Trend>) -> Kind {
             (Primitive::Wedge, Some(trend_of(turn > 0.0)), Bend::Straight)
         };
     }
-    let trend = trend.unwrap_or_else(|| trend_of(curve.growth_at(0.5) > 0.0));
+    let trend = trend.unwrap_or_else(|| trend_of(curve.grows_at(0.5)));
     let bend = match (left.kind, right.kind, trend) {
         (SiteKind::Vertex, SiteKind::Vertex, _) => Bend::Straight,
         (SiteKind::Vertex, _, Trend::Opening) => Bend::SpiralOutLeft,

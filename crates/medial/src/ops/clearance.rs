@@ -17,9 +17,9 @@
 
 use super::groups::Groups;
 use super::hierarchy::HierarchyError;
-use super::outline::foot;
+use super::outline::foot_on;
 use super::radii::Radii;
-use crate::axis::{KeypointKind, MedialAxis, Path, Side};
+use crate::axis::{KeypointKind, MedialAxis, Path, Side, SiteShape};
 use crate::domain::Domain;
 use crate::geom::Point;
 use crate::geom::predicates::compare_gap;
@@ -243,7 +243,10 @@ fn neck_at(
     paths: Vec<u32>,
 ) -> Neck {
     let governors = [path.left, path.right];
-    let footpoints = governors.map(|site| foot(&axis.sites().at(site), middle));
+    let footpoints = governors.map(|site| {
+        let SiteShape { a, b, .. } = axis.site_shape(site);
+        foot_on(a, b, middle)
+    });
     Neck { side: axis.side, width, length, middle, governors, footpoints, paths }
 }
 

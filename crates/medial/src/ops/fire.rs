@@ -73,7 +73,7 @@ impl Fire {
         let mut arrivals = vec![none; keypoints.len()];
         let mut lengths = Vec::with_capacity(axis.paths().len());
         for (number, path) in (0..).zip(axis.paths()) {
-            lengths.push(axis.curve(&path).length());
+            lengths.push(axis.length_of(&path));
             for end in [path.from, path.to] {
                 let arrivals = &mut arrivals[end as usize];
                 arrivals.left += 1;
@@ -129,12 +129,12 @@ impl Fire {
                 _ => return None,
             }
             self.times[keypoint as usize] = time;
-            let path = axis.paths().at(number);
-            let forwards = path.from == keypoint;
+            let [from, to] = axis.paths().ends(number);
+            let forwards = from == keypoint;
             self.ways[number as usize] = if forwards { Way::Forwards } else { Way::Backwards };
             self.order.push(number);
             arrivals[keypoint as usize].left = 0;
-            keypoint = if forwards { path.to } else { path.from };
+            keypoint = if forwards { to } else { from };
             let there = &mut arrivals[keypoint as usize];
             there.left -= 1;
             there.numbers ^= number;

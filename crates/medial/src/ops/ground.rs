@@ -66,22 +66,26 @@ impl<'a> Ground<'a> {
     /// # Errors
     /// The name of a site that the domain does not have.
     pub fn governors(&self, axis: &MedialAxis) -> Result<Vec<Site>, Name> {
-        let elements = self.elements();
+        // Inside, elements are in the order of their numbers.
+        let listed = matches!(self, Self::Outside(_)).then(|| self.elements());
+        let n_elements = listed.as_ref().map_or(2 * self.domain().edges().len(), Vec::len);
+        let element = |k: usize| listed.as_ref().map_or(Site(k as u32), |elements| elements[k]);
         let mut next = 0;
         // Made only if sites do not come in boundary order.
         let mut sorted: Option<Vec<(Name, Site)>> = None;
-        let governor = |site: axis::Site| {
+        let mut governor = |site: axis::Site| -> Result<Site, Name> {
             /// Corners without a cell between two that have one, mostly.
             const NEAR: usize = 4;
-            let is_same = |&e: &Site| self.is_named(e, &site);
-            let ahead = elements[next..].iter().take(NEAR).position(is_same);
-            if let Some(ahead) = ahead {
-                next += ahead + 1;
-                return Ok(elements[next - 1]);
+            let ahead = (next..n_elements.min(next + NEAR)).map(&element);
+            let ahead = (next..).zip(ahead).find(|&(_, e)| self.is_named(e, &site));
+            if let Some((place, element)) = ahead {
+                next = place + 1;
+                return Ok(element);
             }
             let names = sorted.get_or_insert_with(|| {
-                let named = |&site| (Name::of(self.domain(), site), site);
-                let mut names: Vec<(Name, Site)> = elements.iter().map(named).collect();
+                let named = |site| (Name::of(self.domain(), site), site);
+                let elements = (0..n_elements).map(&element);
+                let mut names: Vec<(Name, Site)> = elements.map(named).collect();
                 names.sort_unstable();
                 names
             });
@@ -89,13 +93,19 @@ impl<'a> Ground<'a> {
             let name = Name { kind, polygon, ring, index, part };
             let found = names.binary_search_by(|(known, _)| known.cmp(&name));
             let found = found.ok().map(|k| names[k].1).filter(|&e| self.is_named(e, &site));
-            let element = found.ok_or(name)?;
+            let found = found.ok_or(name)?;
             // What follows lies behind it, if anywhere.
-            let at = elements.partition_point(|&e| self.place(e) <= self.place(element));
-            next = at;
-            Ok(element)
+            next = match &listed {
+                None => found.0 as usize + 1,
+                Some(list) => list.partition_point(|&e| self.place(e) <= self.place(found)),
+            };
+            Ok(found)
         };
-        axis.sites().iter().map(governor).collect()
+        let mut governors = Vec::with_capacity(axis.sites().len());
+        for site in axis.sites().in_order() {
+            governors.push(governor(site)?);
+        }
+        Ok(governors)
     }
 
     /// The place of an element along the boundary of the polygons; `None` for the walls.
@@ -112,15 +122,20 @@ impl<'a> Ground<'a> {
     }
 
     /// Whether an axis lists an element so.
+    #[inline]
     fn is_named(&self, element: Site, site: &axis::Site) -> bool {
-        // The name takes longest.
-        let edge = self.domain().edge(element.index());
-        let is_edge = site.kind == SiteKind::Edge;
-        let start = match self {
-            Self::Inside(_) => site.a,
-            Self::Outside(_) => site.b,
+        let domain = self.domain();
+        // The interior of the polygons is on the left, whatever the side.
+        let (start, end) = match self {
+            Self::Inside(_) => (site.a, site.b),
+            Self::Outside(_) => (site.b, site.a),
         };
-        element.is_edge() == is_edge && edge.start == start && self.named(element) == *site
+        let edge = domain.edge(element.index());
+        // The name takes longest.
+        element.is_edge() == (site.kind == SiteKind::Edge)
+            && edge.start == start
+            && end == if element.is_edge() { domain.end(element.index()) } else { start }
+            && Name::of(domain, element) == Name::from(site)
     }
 
     /// An element as an axis lists it.

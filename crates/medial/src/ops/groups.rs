@@ -13,6 +13,9 @@ pub(super) struct Groups {
 }
 
 impl Groups {
+    /// A place without a number.
+    pub const EMPTY: u32 = u32::MAX;
+
     /// So many groups, from pairs of a group and a member, which are asked for twice.
     pub fn new<I: Iterator<Item = (u32, u32)>>(groups: usize, pairs: impl Fn() -> I) -> Self {
         let mut first = vec![0_u32; groups + 1];
@@ -31,20 +34,41 @@ impl Groups {
 
     /// The paths at each keypoint of an axis.
     pub fn paths_at_keypoints(axis: &MedialAxis) -> Self {
-        let ends = || (0..).zip(axis.paths()).flat_map(|(k, path)| [(path.from, k), (path.to, k)]);
+        let ends =
+            || (0..).zip(axis.paths().all_ends()).flat_map(|(k, [from, to])| [(from, k), (to, k)]);
         Self::new(axis.keypoints().len(), ends)
+    }
+
+    /// Groups with a place for each number, of which some may be left empty: [`Self::EMPTY`]. `first` says
+    /// where the places of each group start, and where the last ones end.
+    pub fn in_places(mut first: Vec<u32>, mut places: Vec<u32>) -> Self {
+        let mut full = 0;
+        let mut start = 0;
+        for group_end in first.iter_mut().skip(1) {
+            let end = *group_end as usize;
+            for place in start..end {
+                let member = places[place];
+                places[full] = member;
+                full += usize::from(member != Self::EMPTY);
+            }
+            *group_end = full as u32;
+            start = end;
+        }
+        places.truncate(full);
+        Self { first, members: places }
+    }
+
+    /// All members, group by group.
+    pub fn all(&self) -> &[u32] {
+        &self.members
     }
 
     pub fn of(&self, group: u32) -> &[u32] {
         &self.members[self.range(group)]
     }
 
-    pub fn of_mut(&mut self, group: u32) -> &mut [u32] {
-        let range = self.range(group);
-        &mut self.members[range]
-    }
-
-    fn range(&self, group: u32) -> Range<usize> {
+    /// The places of a group's members among all of them.
+    pub fn range(&self, group: u32) -> Range<usize> {
         let k = group as usize;
         self.first[k] as usize..self.first[k + 1] as usize
     }

@@ -23,7 +23,7 @@
 //! # Departures
 //! The root of a tree is where it burns last; the papers leave it to be found otherwise.
 
-use std::cell::Cell;
+use std::cell::{Cell, OnceCell};
 use std::ops::Range;
 use std::sync::OnceLock;
 
@@ -32,7 +32,9 @@ use super::ground::Ground;
 use super::measure::Measure;
 use super::rest::{Pruned, Rest};
 use super::scale::Swallowing;
-use crate::axis::{Accuracy, Curve, KeypointKind, MedialAxis, Path, Side, bisected, crossing};
+use crate::axis::{
+    Accuracy, Curve, Keypoint, KeypointKind, MedialAxis, Path, Side, bisected, crossing,
+};
 use crate::check::Name;
 use crate::domain::{Domain, Site};
 use crate::engine::exterior_frame;
@@ -59,12 +61,14 @@ pub enum HierarchyError {
 /// A complete exact axis with the order in which it burns.
 #[derive(Debug)]
 pub struct Hierarchy<'a> {
+    /// The domain as it was given, and the side of it that the axis is of.
+    pub(super) given: &'a Domain,
     ground: Ground<'a>,
     pub(super) axis: &'a MedialAxis,
     governors: Vec<Site>,
     pub(super) fire: Fire,
-    /// For each edge the length of the boundary from the start of its walk to the edge.
-    before: Vec<f64>,
+    /// For each edge the length of the boundary from the start of its walk to the edge, once it is asked for.
+    before: OnceLock<Vec<f64>>,
     /// The corners, once far ones are looked for.
     tree: OnceLock<BoundsTree>,
     /// Made when it is asked for.
@@ -123,15 +127,23 @@ impl Removal {
 /// A path, or the part of one up to the root, seen from the leaves.
 pub(super) struct Limb<'h> {
     hierarchy: &'h Hierarchy<'h>,
-    curve: Curve,
+    path: Path,
     left: Site,
     right: Site,
+    /// The first corner of the boundary behind.
+    first: u32,
+    /// The disks at the start and at the end.
+    disks: [(Point, f64); 2],
+    /// Made when something between the two is asked for.
+    curve: OnceCell<Curve>,
     /// When its start burns, and the longest way to a leaf there.
     time: f64,
     reach: f64,
     /// The squared distance of the farthest corner behind that was found last, and which it was: mostly
     /// it stays the same along the way.
     far: Cell<(f64, u32)>,
+    /// From where it was looked for.
+    far_from: Cell<Option<Point>>,
     /// The squared distance of the farthest corner behind from the start; 0 at a leaf.
     behind: f64,
 }
@@ -140,7 +152,7 @@ pub(super) struct Limb<'h> {
 const NONE: u32 = u32::MAX;
 
 /// Corners up to which each is asked how far it is.
-const FEW: usize = 16;
+const FEW: u32 = 16;
 
 /// A path, or a part of one, that burns in one direction.
 pub(super) struct Part {
@@ -185,18 +197,24 @@ impl<'a> Hierarchy<'a> {
     /// If the axis is not exact, or pruned, or not of this domain.
     pub fn new(domain: &'a Domain, axis: &'a MedialAxis) -> Result<Self, HierarchyError> {
         let (ground, governors) = grounded(domain, axis)?;
-        let edges = ground.domain().edges();
-        let mut before = vec![0.0; edges.len()];
-        for walk in ground.domain().walks() {
-            let mut sum = 0.0;
-            for edge in walk.edges() {
-                before[edge as usize] = sum;
-                sum += edges[edge as usize].length;
-            }
-        }
         let fire = Fire::new(axis);
-        let (tree, swallowing) = (OnceLock::new(), OnceLock::new());
-        Ok(Self { ground, axis, governors, fire, before, tree, swallowing })
+        let (before, tree, swallowing) = (OnceLock::new(), OnceLock::new(), OnceLock::new());
+        Ok(Self { given: domain, ground, axis, governors, fire, before, tree, swallowing })
+    }
+
+    fn before(&self) -> &[f64] {
+        self.before.get_or_init(|| {
+            let edges = self.ground.domain().edges();
+            let mut before = vec![0.0; edges.len()];
+            for walk in self.ground.domain().walks() {
+                let mut sum = 0.0;
+                for edge in walk.edges() {
+                    before[edge as usize] = sum;
+                    sum += edges[edge as usize].length;
+                }
+            }
+            before
+        })
     }
 
     fn tree(&self) -> &BoundsTree {
@@ -213,28 +231,38 @@ impl<'a> Hierarchy<'a> {
 
     /// The length of a walk from the start of one edge on to that of another one.
     fn length_between(&self, from: u32, to: u32) -> f64 {
-        let way = self.before[to as usize] - self.before[from as usize];
+        let before = self.before();
+        let way = before[to as usize] - before[from as usize];
         if to >= from {
             return way;
         }
         let domain = self.ground.domain();
         let walk = domain.walks()[domain.edge(from).walk as usize];
         let last = walk.edges().end - 1;
-        way + self.before[last as usize] + domain.edge(last).length
+        way + before[last as usize] + domain.edge(last).length
     }
 
     /// The path as the fire runs through it from one end.
     fn limb(&self, path: &Path, time: f64, reach: f64, far: (f64, u32)) -> Limb<'_> {
         let governor = |site: u32| self.governors[site as usize];
         let (left, right) = (governor(path.left), governor(path.right));
+        let start = left.index();
+        let disk = |keypoint: u32| {
+            let Keypoint { position, radius, .. } = self.axis.keypoints().at(keypoint);
+            (position, radius)
+        };
         Limb {
             hierarchy: self,
-            curve: self.axis.curve(path),
+            path: *path,
             left,
             right,
+            first: if left.is_edge() { self.ground.domain().edge(start).next } else { start },
+            disks: [disk(path.from), disk(path.to)],
+            curve: OnceCell::new(),
             time,
             reach,
             far: Cell::new(far),
+            far_from: Cell::new(None),
             behind: far.0,
         }
     }
@@ -248,21 +276,23 @@ impl<'a> Hierarchy<'a> {
         let mut fars = vec![(0.0, NONE); n];
         let mut both = Vec::new();
         for &number in &self.fire.order {
-            let path = self.axis.paths().at(number);
-            let (path, forwards) = match self.fire.ways[number as usize] {
-                Way::Forwards => (path, true),
-                Way::Backwards => (path.reversed(), false),
+            let forwards = match self.fire.ways[number as usize] {
+                Way::Forwards => true,
+                Way::Backwards => false,
                 Way::Both(length) => {
                     both.push((number, length));
                     continue;
                 }
                 Way::Never => continue,
             };
-            let (from, to) = (path.from as usize, path.to as usize);
+            let [start, end] = self.axis.paths().ends(number).map(|keypoint| keypoint as usize);
+            let (from, to) = if forwards { (start, end) } else { (end, start) };
             if values[from] >= enough {
                 values[to] = values[to].max(values[from]);
                 continue;
             }
+            let path = self.axis.paths().at(number);
+            let path = if forwards { path } else { path.reversed() };
             let limb = self.limb(&path, self.fire.times[from], reaches[from], fars[from]);
             let (end, root) = (1.0, None);
             let part = Part { path: number, forwards, from: path.from, to: path.to, end, root };
@@ -441,50 +471,102 @@ pub(super) fn grounded<'a>(
     Ok((ground, governors))
 }
 
-/// Looks for the farthest corner of a walk, in a cyclic range in two parts.
+/// Looks for the farthest corner.
 struct Farthest<'a> {
     domain: &'a Domain,
     from: Point,
-    ranges: [Range<u32>; 2],
     distance2: f64,
     corner: u32,
 }
 
 impl Visitor for Farthest<'_> {
-    fn enters(&self, bounds: &Rect, items: Range<u32>) -> bool {
-        let meets = |range: &Range<u32>| items.start < range.end && range.start < items.end;
+    #[inline]
+    fn enters(&self, bounds: &Rect, _: Range<u32>) -> bool {
         let (low, high) = (self.from - bounds.min, bounds.max - self.from);
         let far = Point::new(low.x.abs().max(high.x.abs()), low.y.abs().max(high.y.abs()));
-        far.norm2() > self.distance2 && self.ranges.iter().any(meets)
+        far.norm2() > self.distance2
     }
 
+    #[inline]
     fn item(&mut self, corner: u32) {
-        if self.ranges.iter().any(|range| range.contains(&corner)) {
-            let distance2 = (self.domain.edge(corner).start - self.from).norm2();
-            if distance2 > self.distance2 {
-                (self.distance2, self.corner) = (distance2, corner);
-            }
+        let distance2 = (self.domain.edge(corner).start - self.from).norm2();
+        if distance2 > self.distance2 {
+            (self.distance2, self.corner) = (distance2, corner);
         }
     }
 }
 
 impl Limb<'_> {
+    fn curve(&self) -> &Curve {
+        self.curve.get_or_init(|| {
+            let axis = self.hierarchy.axis;
+            let site = |site: u32| axis.site_shape(site);
+            let [from, to] = self.disks;
+            Curve::between(&site(self.path.left), &site(self.path.right), from, to)
+        })
+    }
+
+    #[inline]
     pub fn radius(&self, u: f64) -> f64 {
-        self.curve.radius_at(u)
+        if u <= 0.0 {
+            self.disks[0].1
+        } else if u >= 1.0 {
+            self.disks[1].1
+        } else {
+            self.curve().radius_at(u)
+        }
+    }
+
+    #[inline]
+    fn centre(&self, u: f64) -> Point {
+        if u <= 0.0 {
+            self.disks[0].0
+        } else if u >= 1.0 {
+            self.disks[1].0
+        } else {
+            self.curve().point_at(u)
+        }
     }
 
     /// The first parameter at which the radius is that large, if it is before an end.
     pub fn reaches(&self, radius: f64, end: f64) -> Option<f64> {
-        if self.curve.radius_from() >= radius {
+        if self.radius(0.0) >= radius {
             return Some(0.0);
         }
-        let found = self.curve.parameters_at_radius(radius).into_iter().flatten();
+        let found = self.curve().parameters_at_radius(radius).into_iter().flatten();
         found.filter(|&u| u < end).min_by(f64::total_cmp)
     }
 
     /// The parameter of the neck, if it lies before an end.
     pub fn neck(&self, end: f64) -> Option<f64> {
-        self.curve.neck().filter(|&neck| neck < end)
+        if self.is_monotone() {
+            return None;
+        }
+        self.curve().neck().filter(|&neck| neck < end)
+    }
+
+    /// Whether it can be told without the curve that there is no neck: the line through a corner that is
+    /// square to the other governor, on which the neck would lie, has both ends on one side.
+    fn is_monotone(&self) -> bool {
+        /// Many times the rounding error of the products and of the direction of an edge.
+        const SURE: f64 = 1e-12;
+        let domain = self.hierarchy.ground.domain();
+        let [left, right] = [self.left, self.right].map(|site| domain.edge(site.index()));
+        let (on_line, along) = match (self.left.is_edge(), self.right.is_edge()) {
+            (true, true) => return true,
+            (true, false) => (right.start, left.direction),
+            (false, true) => (left.start, right.direction),
+            (false, false) => {
+                let way = right.start - left.start;
+                (left.start + way * 0.5, way.perp())
+            }
+        };
+        let [from, to] = self.disks.map(|(centre, _)| {
+            let way = centre - on_line;
+            let (x, y) = (along.x * way.x, along.y * way.y);
+            if (x + y).abs() > SURE * (x.abs() + y.abs()) { x + y } else { f64::NAN }
+        });
+        from > 0.0 && to > 0.0 || from < 0.0 && to < 0.0
     }
 
     /// The first parameter at which a measure reaches a threshold, if it does so before an end.
@@ -498,19 +580,23 @@ impl Limb<'_> {
             (None, None) => (0.0, end),
         };
         let at = |u: f64| low + (high - low) * u;
+        // No more than the threshold is lost, unless that is reached at the very end.
+        let last_below = |[before, after]: [f64; 2]| at(if after == 1.0 { after } else { before });
+        if measure == Measure::Excess {
+            // The usual one, which is asked for at every leaf.
+            return last_below(crossing(|u| self.excess(at(u)) - threshold));
+        }
         let missing = |u: f64| self.value(measure, at(u)) - threshold;
         // What swallows a disk may be another one a little farther on.
         if measure == Measure::Scale {
             return at(bisected(missing));
         }
-        // No more than the threshold is lost, unless that is reached at the very end.
-        let [before, after] = crossing(missing);
-        at(if after == 1.0 { after } else { before })
+        last_below(crossing(missing))
     }
 
     /// The excess at the start, from the corners behind all that ends there.
     pub fn excess_at_start(&self) -> f64 {
-        (self.behind.sqrt() - self.curve.radius_from()).max(0.0)
+        (self.behind.sqrt() - self.radius(0.0)).max(0.0)
     }
 
     /// The value at the start, as far as it may be larger than those of what ends there.
@@ -518,7 +604,7 @@ impl Limb<'_> {
         match measure {
             // All corners behind are behind one of those.
             Measure::Excess => 0.0,
-            Measure::RelativeExcess if self.curve.radius_from() > 0.0 => 0.0,
+            Measure::RelativeExcess if self.radius(0.0) > 0.0 => 0.0,
             _ => self.value(measure, 0.0),
         }
     }
@@ -531,11 +617,11 @@ impl Limb<'_> {
 
     /// The value of a measure at a parameter, by itself.
     pub fn value(&self, measure: Measure, u: f64) -> f64 {
-        let (centre, radius) = (self.curve.point_at(u), self.curve.radius_at(u));
-        let length = || self.curve.piece(0.0, u).length();
-        let behind = || 2.0 * self.curve.growth_at(u).clamp(-1.0, 1.0).acos();
+        let (centre, radius) = (self.centre(u), self.radius(u));
+        let length = || self.curve().piece(0.0, u).length();
+        let behind = || 2.0 * self.curve().growth_at(u).clamp(-1.0, 1.0).acos();
         let value = match measure {
-            Measure::Excess => self.farthest(centre) - radius,
+            Measure::Excess => self.excess(u),
             Measure::RelativeExcess | Measure::Prominence if radius > 0.0 => {
                 (self.farthest(centre) - radius) / radius
             }
@@ -570,10 +656,7 @@ impl Limb<'_> {
 
     /// The first and the last corner of the boundary behind, between the footpoints.
     pub fn corners(&self) -> (u32, u32) {
-        let left = self.left.index();
-        let first =
-            if self.left.is_edge() { self.hierarchy.ground.domain().edge(left).next } else { left };
-        (first, self.right.index())
+        (self.first, self.right.index())
     }
 
     /// The length of the boundary behind, between the footpoints.
@@ -589,29 +672,57 @@ impl Limb<'_> {
             + self.foot(self.right, centre).0
     }
 
+    /// The distance of the farthest corner behind less the radius.
+    #[inline]
+    fn excess(&self, u: f64) -> f64 {
+        (self.farthest(self.centre(u)) - self.radius(u)).max(0.0)
+    }
+
     /// The distance of the farthest corner behind.
+    #[inline]
     fn farthest(&self, centre: Point) -> f64 {
+        if self.far_from.get() != Some(centre) {
+            let (first, last) = self.corners();
+            let is_few = first <= last && last - first < FEW;
+            let far = if is_few { self.farthest_of_few(centre) } else { self.search_far(centre) };
+            self.far.set(far);
+            self.far_from.set(Some(centre));
+        }
+        self.far.get().0.sqrt()
+    }
+
+    /// The squared distance of the farthest corner behind, and which it is, where these are few in a row.
+    #[inline]
+    fn farthest_of_few(&self, from: Point) -> (f64, u32) {
         let (first, last) = self.corners();
         let domain = self.hierarchy.ground.domain();
-        let walk = domain.walks()[domain.edge(first).walk as usize];
+        let mut farthest = Farthest { domain, from, distance2: 0.0, corner: first };
+        (first..=last).for_each(|corner| farthest.item(corner));
+        (farthest.distance2, farthest.corner)
+    }
+
+    /// The same for any number of them, or around the start of their walk.
+    fn search_far(&self, from: Point) -> (f64, u32) {
+        let (first, last) = self.corners();
+        let domain = self.hierarchy.ground.domain();
+        let mut farthest = Farthest { domain, from, distance2: 0.0, corner: first };
         let ranges = if first <= last {
             [first..last + 1, 0..0]
         } else {
+            let walk = domain.walks()[domain.edge(first).walk as usize];
             [first..walk.edges().end, walk.first..last + 1]
         };
-        let mut farthest = Farthest { domain, from: centre, ranges, distance2: 0.0, corner: first };
-        let [begin, end] = &farthest.ranges;
-        if begin.len() + end.len() <= FEW {
-            begin.clone().chain(end.clone()).for_each(|corner| farthest.item(corner));
-        } else {
-            for corner in [first, last, self.far.get().1] {
-                if corner != NONE {
-                    farthest.item(corner);
-                }
-            }
-            self.hierarchy.tree().visit(&mut farthest);
+        if ranges.iter().map(ExactSizeIterator::len).sum::<usize>() <= FEW as usize {
+            ranges.into_iter().flatten().for_each(|corner| farthest.item(corner));
+            return (farthest.distance2, farthest.corner);
         }
-        self.far.set((farthest.distance2, farthest.corner));
-        farthest.distance2.sqrt()
+        // One that is far saves most of the search.
+        let known = self.far.get().1;
+        let is_behind = ranges.iter().any(|range| range.contains(&known));
+        farthest.item(if is_behind { known } else { last });
+        for range in ranges.into_iter().filter(|range| !range.is_empty()) {
+            self.hierarchy.tree().visit_within(range, &mut farthest);
+        }
+        (farthest.distance2, farthest.corner)
     }
 }

@@ -18,7 +18,7 @@ use std::f64::consts::TAU;
 
 use super::groups::Groups;
 use super::reconstruct::signed_area;
-use crate::axis::{KeypointKind, MedialAxis, Path, Side, Site, SiteKind};
+use crate::axis::{KeypointKind, MedialAxis, Path, Side, SiteKind, SiteShape};
 use crate::geom::{Point, orient2d};
 
 /// The outline of what an axis stands for.
@@ -157,19 +157,20 @@ impl Outline {
             return Err(OutlineError::Exterior);
         }
         let turns = Turns::new(axis)?;
-        let polygon = |component: Component| {
-            let contour = |darts: &Vec<u32>| turns.contour(darts);
-            let mut contours: Vec<Contour> = component.contours.iter().map(contour).collect();
-            if contours.is_empty() {
-                contours.push(circle(axis, component.keypoint));
-            }
-            // The outer one is that with the interior inside.
-            if let Some(outer) = contours.iter().position(|contour| contour.area() > 0.0) {
-                contours.swap(0, outer);
+        let polygon = |Component { keypoint, mut contours }: Component<Contour>| {
+            match contours.len() {
+                0 => contours.push(circle(axis, keypoint)),
+                1 => {}
+                // The outer one is that with the interior inside.
+                _ => {
+                    let outer = contours.iter().position(|contour| contour.area() > 0.0);
+                    contours.swap(0, outer.unwrap_or(0));
+                }
             }
             OutlinePolygon(contours)
         };
-        Ok(Self { polygons: turns.components().into_iter().map(polygon).collect() })
+        let components = turns.components(|darts| turns.contour(darts));
+        Ok(Self { polygons: components.into_iter().map(polygon).collect() })
     }
 
     /// The rings of polygons no farther than a tolerance from it, the outer one first. A contour that
@@ -322,11 +323,11 @@ fn circle(axis: &MedialAxis, keypoint: u32) -> Contour {
 }
 
 /// A part of an axis that is connected.
-pub(super) struct Component {
+pub(super) struct Component<C> {
     /// One of its keypoints.
     pub keypoint: u32,
-    /// What is passed with each of its contours on the right; none if it is a point.
-    pub contours: Vec<Vec<u32>>,
+    /// Its contours; none if it is a point.
+    pub contours: Vec<C>,
 }
 
 /// Ways around the keypoints. Path `k` is passed from its start as number `2k`, from its end as `2k + 1`.
@@ -334,78 +335,101 @@ pub(super) struct Turns<'a> {
     axis: &'a MedialAxis,
     /// What leaves each keypoint, counterclockwise.
     pub leaving: Groups,
-    /// The place of each among those that leave its keypoint.
-    place: Vec<u32>,
+    /// What follows each along the boundary on the right.
+    next: Vec<u32>,
 }
 
 impl<'a> Turns<'a> {
     pub fn new(axis: &'a MedialAxis) -> Result<Self, OutlineError> {
-        let ends = || {
-            let of = |(k, path): (u32, Path)| [(path.from, 2 * k), (path.to, 2 * k + 1)];
-            (0..).zip(axis.paths()).flat_map(of)
-        };
-        let mut turns = Self {
-            axis,
-            leaving: Groups::new(axis.keypoints().len(), ends),
-            place: vec![0; 2 * axis.paths().len()],
-        };
-        let mut order: Vec<(usize, u32)> = Vec::new();
-        for keypoint in 0..axis.keypoints().len() as u32 {
-            let list = axis.governors(keypoint);
-            order.clear();
-            for &dart in turns.leaving.of(keypoint) {
-                let right = turns.path(dart).right;
-                let place = list.iter().position(|&governor| governor == right);
-                order.push((place.ok_or(OutlineError::Disordered { keypoint })?, dart));
+        let n = axis.keypoints().len() as u32;
+        // Each keypoint has a place for each of its governors, for what leaves it with that on the right.
+        let mut first = Vec::with_capacity(n as usize + 1);
+        first.push(0);
+        let mut sum = 0;
+        for keypoint in 0..n {
+            sum += axis.governors(keypoint).len() as u32;
+            first.push(sum);
+        }
+        let mut places = vec![Groups::EMPTY; sum as usize];
+        let mut disordered: Option<u32> = None;
+        let mut leave = |dart: u32, keypoint: u32, right: u32| {
+            let place = axis.governors(keypoint).iter().position(|&governor| governor == right);
+            let place = place.map(|k| &mut places[first[keypoint as usize] as usize + k]);
+            match place {
+                Some(place) if *place == Groups::EMPTY => *place = dart,
+                _ => disordered = Some(disordered.unwrap_or(keypoint).min(keypoint)),
             }
-            order.sort_unstable();
-            if order.windows(2).any(|pair| pair[0].0 == pair[1].0) {
-                return Err(OutlineError::Disordered { keypoint });
-            }
-            let sorted = turns.leaving.of_mut(keypoint);
-            for (k, &(_, dart)) in order.iter().enumerate() {
-                sorted[k] = dart;
-                turns.place[dart as usize] = k as u32;
+        };
+        for (k, path) in (0..).zip(axis.paths()) {
+            leave(2 * k, path.from, path.right);
+            leave(2 * k + 1, path.to, path.left);
+        }
+        if let Some(keypoint) = disordered {
+            return Err(OutlineError::Disordered { keypoint });
+        }
+        let leaving = Groups::in_places(first, places);
+        let mut next = vec![0; 2 * axis.paths().len()];
+        for keypoint in 0..n {
+            // What comes by one of them goes on by that after it.
+            let around = leaving.of(keypoint);
+            if let Some(&last) = around.last() {
+                let mut before = last;
+                for &dart in around {
+                    next[before as usize ^ 1] = dart;
+                    before = dart;
+                }
             }
         }
-        Ok(turns)
+        Ok(Self { axis, leaving, next })
     }
 
     /// The path as it is passed.
+    #[inline]
     pub fn path(&self, dart: u32) -> Path {
         let path = self.axis.paths().at(dart / 2);
         if dart.is_multiple_of(2) { path } else { path.reversed() }
     }
 
-    /// What follows along the boundary on the right.
-    pub fn next(&self, dart: u32) -> u32 {
-        let back = dart ^ 1;
-        let around = self.leaving.of(self.path(dart).to);
-        let place = self.place[back as usize] as usize + 1;
-        around[if place < around.len() { place } else { 0 }]
+    /// The keypoint to which it leads.
+    fn end(&self, dart: u32) -> u32 {
+        let [from, to] = self.axis.paths().ends(dart / 2);
+        if dart.is_multiple_of(2) { to } else { from }
     }
 
-    /// The components with their contours.
-    pub fn components(&self) -> Vec<Component> {
+    /// What follows along the boundary on the right.
+    pub fn next(&self, dart: u32) -> u32 {
+        self.next[dart as usize]
+    }
+
+    /// The components with their contours, each made of all that is passed with it on the right.
+    pub fn components<C>(&self, contour: impl Fn(&[u32]) -> C) -> Vec<Component<C>> {
         let n = self.axis.keypoints().len();
         let mut is_met = vec![false; n];
-        let mut is_passed = vec![false; self.place.len()];
+        let mut is_passed = vec![false; self.next.len()];
+        let mut left = self.next.len();
+        let (mut open, mut darts) = (Vec::new(), Vec::new());
         let mut components = Vec::new();
         for start in 0..n as u32 {
-            if std::mem::replace(&mut is_met[start as usize], true) {
+            // Where all has been passed only keypoints without paths are left.
+            let is_done = left == 0 && !self.leaving.of(start).is_empty();
+            if is_done || std::mem::replace(&mut is_met[start as usize], true) {
                 continue;
             }
             let mut component = Component { keypoint: start, contours: Vec::new() };
-            let mut open = vec![start];
+            open.push(start);
             while let Some(keypoint) = open.pop() {
                 for &dart in self.leaving.of(keypoint) {
-                    let to = self.path(dart).to;
-                    if !std::mem::replace(&mut is_met[to as usize], true) {
-                        open.push(to);
+                    if !std::mem::replace(&mut is_met[self.end(dart) as usize], true) {
+                        open.push(self.end(dart));
                     }
                     if !is_passed[dart as usize] {
-                        component.contours.push(self.around(dart, &mut is_passed));
+                        self.around(dart, &mut is_passed, &mut darts);
+                        left -= darts.len();
+                        component.contours.push(contour(&darts));
                     }
+                }
+                if left == 0 {
+                    open.clear();
                 }
             }
             components.push(component);
@@ -414,34 +438,35 @@ impl<'a> Turns<'a> {
     }
 
     /// What is passed with the same contour on the right, from a path on.
-    fn around(&self, start: u32, is_passed: &mut [bool]) -> Vec<u32> {
-        let mut darts = Vec::new();
+    fn around(&self, start: u32, is_passed: &mut [bool], darts: &mut Vec<u32>) {
+        darts.clear();
         let mut dart = start;
         while !std::mem::replace(&mut is_passed[dart as usize], true) {
             darts.push(dart);
             dart = self.next(dart);
         }
-        darts
     }
 
     /// The contour to the right of all these.
     fn contour(&self, darts: &[u32]) -> Contour {
         let mut pieces = Vec::new();
-        for &dart in darts {
-            let path = self.path(dart);
-            let sites = self.axis.sites();
-            let next = self.path(self.next(dart));
-            let (before, after) = (sites.at(path.right), sites.at(next.right));
-            let disk = self.axis.keypoints().at(path.to);
-            if before.kind == SiteKind::Vertex {
-                push(&mut pieces, OutlinePiece::Corner(before.a));
+        let site = |path: &Path| (path.right, self.axis.site_shape(path.right));
+        let Some(&first) = darts.first() else { return Contour(pieces) };
+        let first = self.path(first);
+        let (mut path, mut before) = (first, site(&first));
+        for next in darts[1..].iter().map(|&dart| self.path(dart)).chain([first]) {
+            let after = if next.right == before.0 { before } else { site(&next) };
+            let keypoint = path.to;
+            if before.1.kind == SiteKind::Vertex {
+                push(&mut pieces, OutlinePiece::Corner(before.1.a));
             }
+            let disk = self.axis.keypoints().at(keypoint);
             if disk.kind == KeypointKind::End {
                 push(&mut pieces, OutlinePiece::Corner(disk.position));
-            } else if !meet(&before, &after) {
+            } else if before.0 != after.0 && !meet(&before.1, &after.1) {
                 let (centre, radius) = (disk.position, disk.radius);
-                let [from, to] = [foot(&before, centre), foot(&after, centre)];
-                let closes = self.leaving.of(path.to).len() == 1
+                let [from, to] = [before, after].map(|(_, site)| foot_on(site.a, site.b, centre));
+                let closes = self.leaving.of(keypoint).len() == 1
                     && self.axis.curve(&path).growth_at(1.0) > 0.0;
                 if TAU - sweep(centre, from, to) < WRAPPED && !closes {
                     // An arc of nothing, for a corner that is nearly straight.
@@ -451,6 +476,7 @@ impl<'a> Turns<'a> {
                     push(&mut pieces, OutlinePiece::Arc { centre, radius, from, to, sense });
                 }
             }
+            (path, before) = (next, after);
         }
         if pieces.len() > 1 && pieces.first() == pieces.last() {
             pieces.pop();
@@ -466,29 +492,23 @@ fn push(pieces: &mut Vec<OutlinePiece>, piece: OutlinePiece) {
     }
 }
 
-/// Whether two sites that follow one another along the boundary are one, or have one footpoint: a corner
-/// and one of its edges, or two pieces of an edge.
-fn meet(before: &Site, after: &Site) -> bool {
-    before == after
-        || match (before.kind, after.kind) {
-            (SiteKind::Vertex, SiteKind::Edge) => after.a == before.a,
-            (SiteKind::Edge, SiteKind::Vertex) => before.b == after.a,
-            (SiteKind::Edge, SiteKind::Edge) => {
-                before.b == after.a
-                    && orient2d(before.a, before.b, after.b) == 0.0
-                    && along(before).dot(along(after)) > 0.0
-            }
-            (SiteKind::Vertex, SiteKind::Vertex) => before.a == after.a,
+/// Whether two sites that follow one another along the boundary have one footpoint: a corner and one of its
+/// edges, or two pieces of an edge.
+fn meet(before: &SiteShape, after: &SiteShape) -> bool {
+    match (before.kind, after.kind) {
+        (SiteKind::Vertex, SiteKind::Edge) => after.a == before.a,
+        (SiteKind::Edge, SiteKind::Vertex) => before.b == after.a,
+        (SiteKind::Edge, SiteKind::Edge) => {
+            before.b == after.a
+                && orient2d(before.a, before.b, after.b) == 0.0
+                && along(before).dot(along(after)) > 0.0
         }
+        (SiteKind::Vertex, SiteKind::Vertex) => before.a == after.a,
+    }
 }
 
-fn along(edge: &Site) -> Point {
+fn along(edge: &SiteShape) -> Point {
     edge.b - edge.a
-}
-
-/// The point of a site that is nearest to a point.
-pub(super) fn foot(site: &Site, p: Point) -> Point {
-    foot_on(site.a, site.b, p)
 }
 
 /// The point of a segment that is nearest to a point.

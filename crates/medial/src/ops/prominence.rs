@@ -107,15 +107,15 @@ impl Hierarchy<'_> {
         // From the roots outwards: each keypoint has one path that leads on.
         let mut least = vec![f64::INFINITY; self.fire.times.len()];
         for (path, _, second) in &all.rooted {
-            let ends = self.axis.paths().at(*path);
-            least[ends.from as usize] = all.first[*path as usize].at_start();
-            least[ends.to as usize] = second.at_start();
+            let [from, to] = self.axis.paths().ends(*path);
+            least[from as usize] = all.first[*path as usize].at_start();
+            least[to as usize] = second.at_start();
         }
         for &path in self.fire.order.iter().rev() {
-            let ends = self.axis.paths().at(path);
+            let [from, to] = self.axis.paths().ends(path);
             let (from, to) = match self.fire.ways[path as usize] {
-                Way::Forwards => (ends.from, ends.to),
-                Way::Backwards => (ends.to, ends.from),
+                Way::Forwards => (from, to),
+                Way::Backwards => (to, from),
                 Way::Both(_) | Way::Never => continue,
             };
             let stretch = &mut all.first[path as usize];
@@ -164,8 +164,8 @@ impl Hierarchy<'_> {
                 match root {
                     Some(_) => rest.error = rest.error.max(stretch.excess),
                     None => {
-                        let ends = self.axis.paths().at(path);
-                        lost.push((if forwards { ends.to } else { ends.from }, stretch.excess));
+                        let [from, to] = self.axis.paths().ends(path);
+                        lost.push((if forwards { to } else { from }, stretch.excess));
                     }
                 }
                 // Up to one root from both sides.

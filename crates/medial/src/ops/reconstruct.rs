@@ -165,11 +165,9 @@ pub fn tangent_polygons(
         return Err(OutlineError::Exterior);
     }
     let turns = Turns::new(axis)?;
-    let polygon = |component: Component| {
-        let ring = |darts: &Vec<u32>| tangent_ring(axis, &turns, darts, step);
-        let mut rings: Vec<Vec<Point>> = component.contours.iter().map(ring).collect();
+    let polygon = |Component { keypoint, contours: mut rings }: Component<Vec<Point>>| {
         if rings.is_empty() {
-            let keypoint = axis.keypoints().at(component.keypoint);
+            let keypoint = axis.keypoints().at(keypoint);
             rings.push(around(&disk(keypoint.position, keypoint.radius)));
         }
         if let Some(outer) = rings.iter().position(|ring| signed_area(ring) > 0.0) {
@@ -177,7 +175,8 @@ pub fn tangent_polygons(
         }
         rings
     };
-    Ok(turns.components().into_iter().map(polygon).collect())
+    let components = turns.components(|darts| tangent_ring(axis, &turns, darts, step));
+    Ok(components.into_iter().map(polygon).collect())
 }
 
 /// The area within a ring, negative if it runs clockwise; rounded.

@@ -62,83 +62,80 @@ impl<'a> Rest<'a> {
     pub fn finish(self, roots: &[u32], lost: &[(u32, f64)]) -> Pruned {
         let Self { axis, kept, mut error } = self;
         let whole = [0.0, 1.0];
-        let all = || {
+        if kept.iter().all(|part| *part == whole) {
             let origin = |path| Origin { path, part: whole };
             let origins = (0..axis.paths().len() as u32).map(origin).collect();
-            Pruned { axis: axis.clone(), error: 0.0, origins }
-        };
-        if kept.iter().all(|part| *part == whole) {
-            return all();
+            return Pruned { axis: axis.clone(), error: 0.0, origins };
         }
-        let n = axis.keypoints().len();
-        let mut degree = vec![0_u32; n];
-        for (path, part) in axis.paths().iter().zip(&kept) {
-            if part[0] < part[1] {
-                degree[path.from as usize] += u32::from(part[0] == 0.0);
-                degree[path.to as usize] += u32::from(part[1] == 1.0);
-            }
+        let is_left = |&[low, high]: &[f64; 2]| low < high || is_root(low, high);
+        let is_tip = |&[low, high]: &[f64; 2]| [low > 0.0, high < 1.0 && low < high];
+        let (mut n_paths, mut n_tips) = (0, 0);
+        let mut degree = vec![0_u32; axis.keypoints().len()];
+        // Sites that govern nothing any more are not listed.
+        let mut sites = vec![u32::MAX; axis.sites().len()];
+        for (path, part) in axis.paths().iter().zip(&kept).filter(|(_, part)| is_left(part)) {
+            degree[path.from as usize] += u32::from(part[0] == 0.0);
+            degree[path.to as usize] += u32::from(part[1] == 1.0);
+            (sites[path.left as usize], sites[path.right as usize]) = (0, 0);
+            n_paths += usize::from(part[0] < part[1]);
+            n_tips += is_tip(part).map(usize::from).iter().sum::<usize>();
         }
-        let mut stays: Vec<bool> = degree.iter().map(|&degree| degree > 0).collect();
+        // The number of each keypoint that stays.
+        let mut number: Vec<u32> =
+            degree.iter().map(|&degree| if degree > 0 { 0 } else { u32::MAX }).collect();
         for &root in roots {
-            stays[root as usize] = true;
+            number[root as usize] = 0;
         }
         for &(keypoint, excess) in lost {
-            if stays[keypoint as usize] {
+            if number[keypoint as usize] == 0 {
                 error = error.max(excess);
             }
         }
-        let keypoints = axis.keypoints();
-        let is_left = |&[low, high]: &[f64; 2]| low < high || is_root(low, high);
-        // Sites that govern nothing any more are not listed.
-        let mut sites = vec![u32::MAX; axis.sites().len()];
-        for k in (0..n as u32).filter(|&k| stays[k as usize]) {
+        let mut n = 0;
+        for (k, number) in (0..).zip(&mut number).filter(|(_, number)| **number == 0) {
             axis.governors(k).iter().for_each(|&site| sites[site as usize] = 0);
+            *number = n;
+            n += 1;
         }
-        for (path, _) in axis.paths().iter().zip(&kept).filter(|(_, part)| is_left(part)) {
-            (sites[path.left as usize], sites[path.right as usize]) = (0, 0);
-        }
-        let Some(table) = axis.sites_among(&mut sites) else { return all() };
+        let table = axis.sites_among(&mut sites);
         let site = |site: u32| sites[site as usize];
-        let mut points = KeypointTable::with_room(n);
-        let mut number = vec![u32::MAX; n];
-        for k in (0..n as u32).filter(|&k| stays[k as usize]) {
-            let keypoint = keypoints.at(k);
-            number[k as usize] = points.len();
-            let kind = match (degree[k as usize], keypoint.kind) {
+        let mut points = KeypointTable::with_room(n as usize + n_tips);
+        for (k, _) in (0..).zip(&number).filter(|(_, number)| **number != u32::MAX) {
+            let kind = match (degree[k as usize], axis.keypoints().at(k).kind) {
                 (1, kind @ (KeypointKind::End | KeypointKind::Clipped)) => kind,
                 (0 | 1, _) => KeypointKind::Tip,
                 (2, _) => KeypointKind::Transition,
                 _ => KeypointKind::Junction,
             };
-            let governors = axis.governors(k).iter().map(|&governor| site(governor));
-            points.push(&Keypoint { kind, ..keypoint }, governors);
+            axis.copy_keypoint(&mut points, k, kind, site);
         }
-        let (mut paths, mut origins) = (Vec::with_capacity(kept.len()), Vec::new());
-        origins.reserve(kept.len());
-        for (origin, (path, part)) in (0..).zip(axis.paths().iter().zip(&kept)) {
-            if !is_left(part) {
-                continue;
-            }
-            let (left, right) = (site(path.left), site(path.right));
-            let mut tip = |u: f64| {
-                let curve = axis.curve(&path);
-                let (position, radius) = (curve.point_at(u), curve.radius_at(u));
-                let tip = Keypoint { position, radius, kind: KeypointKind::Tip };
-                points.push(&tip, [left.min(right), left.max(right)].into_iter());
-                points.len() - 1
-            };
+        let (mut paths, mut origins) = (PathTable::with_room(n_paths), Vec::with_capacity(n_paths));
+        for (origin, part) in (0..).zip(&kept).filter(|(_, part)| is_left(part)) {
+            let [from, to] = axis.paths().ends(origin).map(|keypoint| number[keypoint as usize]);
+            let [is_tip_at_start, is_tip_at_end] = is_tip(part);
             let &[low, high] = part;
-            if is_root(low, high) {
-                tip(low);
-                continue;
+            if is_tip_at_start || is_tip_at_end {
+                let path = axis.paths().at(origin);
+                let curve = axis.curve(&path);
+                let (left, right) = (site(path.left), site(path.right));
+                let mut tip = |u: f64| {
+                    let (position, radius) = (curve.point_at(u), curve.radius_at(u));
+                    let tip = Keypoint { position, radius, kind: KeypointKind::Tip };
+                    points.push(&tip, [left.min(right), left.max(right)].into_iter());
+                    points.len() - 1
+                };
+                let from = if is_tip_at_start { tip(low) } else { from };
+                if low == high {
+                    continue;
+                }
+                let to = if is_tip_at_end { tip(high) } else { to };
+                paths.push(&Path { from, to, left, right }, &points);
+            } else {
+                axis.copy_path(&mut paths, origin, [from, to], site);
             }
-            let from = if low == 0.0 { number[path.from as usize] } else { tip(low) };
-            let to = if high == 1.0 { number[path.to as usize] } else { tip(high) };
-            paths.push(Path { from, to, left, right });
             origins.push(Origin { path: origin, part: [low, high] });
         }
         points.shrink();
-        let mut paths = PathTable::of(paths.into_iter(), &points);
         paths.shrink();
         let MedialAxis { engine, side, accuracy, .. } = *axis;
         let axis = MedialAxis::from_tables(engine, side, accuracy, false, table, points, paths);

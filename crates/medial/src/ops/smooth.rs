@@ -68,7 +68,17 @@ pub fn smoothed(
     measure: Measure,
     threshold: f64,
 ) -> Result<Smoothed, SmoothError> {
-    let pruned = Hierarchy::new(domain, axis)?.pruned(measure, threshold);
-    let outline = Outline::new(&pruned.axis)?;
-    Ok(Smoothed { outline, axis: pruned.axis, distance: pruned.error })
+    Hierarchy::new(domain, axis)?.smoothed(measure, threshold)
+}
+
+impl Hierarchy<'_> {
+    /// What [`smoothed`] gives, for who has the hierarchy already.
+    ///
+    /// # Errors
+    /// If the axis is not of the interior.
+    pub fn smoothed(&self, measure: Measure, threshold: f64) -> Result<Smoothed, SmoothError> {
+        let pruned = self.pruned(measure, threshold);
+        let outline = Outline::new(&pruned.axis)?;
+        Ok(Smoothed { outline, axis: pruned.axis, distance: pruned.error })
+    }
 }

@@ -14,6 +14,8 @@ pub(super) struct Graph<'a> {
     pieces: Vec<Piece>,
     /// The pieces at each node.
     incidence: Groups,
+    /// The steps that these are, in the same order.
+    steps: Vec<Step>,
     lengths: Vec<f64>,
     used: Vec<bool>,
     /// The place of each node in its component, once that is known.
@@ -30,6 +32,14 @@ struct Piece {
     span: [f64; 2],
     from: u32,
     to: u32,
+}
+
+/// A piece as it is passed from a node: where it leads, and how long it is.
+#[derive(Clone, Copy, Debug)]
+struct Step {
+    piece: u32,
+    to: u32,
+    length: f64,
 }
 
 /// Pieces that are gathered for a graph. Keypoints are nodes under their own numbers; more nodes lie where
@@ -93,24 +103,35 @@ impl<'a> Pieces<'a> {
 impl<'a> Graph<'a> {
     /// The graph of some paths of an axis as they are.
     pub fn whole(axis: &'a MedialAxis, paths: &[u32]) -> Self {
-        let mut pieces = Pieces::of(axis);
-        for &path in paths {
-            pieces.add(path, &[0.0, 1.0]);
-        }
-        Self::new(pieces)
+        let piece = |&path: &u32| {
+            let [from, to] = axis.paths().ends(path);
+            Piece { path, span: [0.0, 1.0], from, to }
+        };
+        Self::new(Pieces { pieces: paths.iter().map(piece).collect(), ..Pieces::of(axis) })
     }
 
     pub fn new(pieces: Pieces<'a>) -> Self {
         let Pieces { axis, pieces, n_nodes } = pieces;
-        let curve = |piece: &Piece| {
-            let [from, to] = piece.span;
-            axis.curve(&axis.paths().at(piece.path)).piece(from, to)
+        let length = |piece: &Piece| {
+            let path = axis.paths().at(piece.path);
+            match piece.span {
+                [0.0, 1.0] => axis.length_of(&path),
+                [from, to] => axis.curve(&path).piece(from, to).length(),
+            }
         };
-        let lengths = pieces.iter().map(|piece| curve(piece).length()).collect();
+        let lengths: Vec<f64> = pieces.iter().map(length).collect();
         let ends = || (0..).zip(&pieces).flat_map(|(k, piece)| [(piece.from, k), (piece.to, k)]);
         let incidence = Groups::new(n_nodes as usize, ends);
+        let mut steps = Vec::with_capacity(incidence.all().len());
+        for node in 0..n_nodes {
+            steps.extend(incidence.of(node).iter().map(|&piece| {
+                let Piece { from, to, .. } = pieces[piece as usize];
+                let to = if from == node { to } else { from };
+                Step { piece, to, length: lengths[piece as usize] }
+            }));
+        }
         let (used, places) = (vec![false; pieces.len()], vec![NONE; n_nodes as usize]);
-        Self { axis, pieces, incidence, lengths, used, places, is_whole: true }
+        Self { axis, pieces, incidence, steps, lengths, used, places, is_whole: true }
     }
 
     /// All nodes, also those without a piece.
@@ -121,6 +142,18 @@ impl<'a> Graph<'a> {
     /// The pieces at a node that are left.
     pub fn pieces_at(&self, node: u32) -> impl Iterator<Item = u32> {
         self.incidence.of(node).iter().copied().filter(|&piece| !self.used[piece as usize])
+    }
+
+    /// The steps from a node over pieces that are left.
+    fn steps_from(&self, node: u32) -> impl Iterator<Item = Step> {
+        let steps = &self.steps[self.incidence.range(node)];
+        steps.iter().copied().filter(|step| !self.used[step.piece as usize])
+    }
+
+    /// The step from a node on, for who comes by a piece, if that is all there is.
+    fn step_on(&self, node: u32, by: u32) -> Option<Step> {
+        let mut others = self.steps_from(node).filter(|step| step.piece != by);
+        others.next().filter(|_| others.next().is_none())
     }
 
     /// How many pieces end at a node, of those that are left.
@@ -216,17 +249,38 @@ impl<'a> Graph<'a> {
             if distance > ways.distances[self.place(node)] {
                 continue;
             }
-            for piece in self.pieces_at(node) {
-                let other = self.other_end(piece, node);
-                let there = distance + self.length(piece);
-                if there < ways.distances[self.place(other)] {
-                    ways.distances[self.place(other)] = there;
-                    ways.last[self.place(other)] = piece;
-                    heap.push(Reverse((there.to_bits(), other)));
+            for mut step in self.steps_from(node) {
+                // Where there is but one way on it is taken at once, without the heap.
+                let (mut from, mut distance) = (node, distance);
+                while self.offer(&mut ways, from, distance, step) {
+                    (from, distance) = (step.to, distance + step.length);
+                    let Some(next) = self.step_on(from, step.piece) else {
+                        heap.push(Reverse((distance.to_bits(), from)));
+                        break;
+                    };
+                    step = next;
                 }
             }
         }
         ways
+    }
+
+    /// Takes a step from a node at some distance, if that is nearer than all before; true if it is. Of steps
+    /// that come to the same the one from the nearer node counts, or from that with the lesser number.
+    fn offer(&self, ways: &mut Ways, from: u32, distance: f64, step: Step) -> bool {
+        let (place, there) = (self.place(step.to), distance + step.length);
+        let known = ways.distances[place];
+        if there < known {
+            (ways.distances[place], ways.last[place]) = (there, step.piece);
+            return true;
+        }
+        if there == known && distance < there && step.to != ways.start {
+            let before = self.other_end(ways.last[place], step.to);
+            if (distance, from) < (self.distance(ways, before), before) {
+                ways.last[place] = step.piece;
+            }
+        }
+        false
     }
 
     /// Follows the only way to each node of a tree; false, with some ways, if there is a cycle.
@@ -234,18 +288,13 @@ impl<'a> Graph<'a> {
         let mut open = vec![(ways.start, NONE)];
         while let Some((node, by)) = open.pop() {
             let distance = ways.distances[self.place(node)];
-            for piece in self.pieces_at(node) {
-                if piece == by {
-                    continue;
-                }
-                let other = self.other_end(piece, node);
-                let place = self.place(other);
+            for Step { piece, to, length } in self.steps_from(node).filter(|s| s.piece != by) {
+                let place = self.place(to);
                 if ways.distances[place] < f64::INFINITY {
                     return false;
                 }
-                ways.distances[place] = distance + self.length(piece);
-                ways.last[place] = piece;
-                open.push((other, piece));
+                (ways.distances[place], ways.last[place]) = (distance + length, piece);
+                open.push((to, piece));
             }
         }
         true
@@ -330,9 +379,9 @@ pub(super) fn paths_of_points(pruned: &MedialAxis, axis: &MedialAxis) -> Vec<u32
         path_of[path.right as usize] = number;
     }
     // Sites that are left are in the same order.
-    let mut all = (0_u32..).zip(axis.sites().iter());
+    let mut all = (0_u32..).zip(axis.sites().in_order());
     let same = |site| all.find(|(_, other)| *other == site).map(|(number, _)| number);
-    let numbers: Vec<Option<u32>> = pruned.sites().iter().map(same).collect();
+    let numbers: Vec<Option<u32>> = pruned.sites().in_order().map(same).collect();
     let alone = |&(_, degree): &(u32, u32)| degree == 0;
     let tips = (0..).zip(degrees).filter(alone).map(|(tip, _)| pruned.governors(tip)[0]);
     let paths = tips.filter_map(|site| numbers[site as usize].map(|k| path_of[k as usize]));

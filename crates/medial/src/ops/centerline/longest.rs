@@ -2,12 +2,16 @@
 //!
 //! # Method
 //! In a tree the node farthest from any node is an end of a longest path. With cycles the nodes far from
-//! the middle of such a way are tried until no pair that is left can be farther apart. The longest way of
-//! an axis without cycles is found while its leaves are peeled off, in the order of its keypoints.
+//! the middle of such a way are tried until no pair that is left can be farther apart, but for those so near
+//! to one tried before that they cannot be either. The longest way of an axis without cycles is found while
+//! its leaves are peeled off, in the order of its keypoints.
 
 use super::graph::{Graph, NONE, Way};
 use super::line::Centerline;
 use crate::axis::MedialAxis;
+
+/// More than the rounding of sums of lengths, as a factor.
+const SURE: f64 = 1.0 + 1e-9;
 
 /// Nodes that are visited at most to find the longest way around cycles, from all points together that
 /// are tried as its end: about a second.
@@ -40,6 +44,8 @@ pub(super) fn way(graph: &Graph, component: &[u32]) -> Option<Way> {
         let distance = |node: u32| graph.distance(&around, node);
         let mut order = ends.clone();
         order.sort_by(|&a, &b| distance(b).total_cmp(&distance(a)).then(a.cmp(&b)));
+        // By way of those that were tried no end is farther than this from another one.
+        let mut bounds = vec![f64::INFINITY; n];
         for (tried, &node) in order.iter().enumerate() {
             if 2.0 * distance(node) <= length {
                 break;
@@ -48,8 +54,15 @@ pub(super) fn way(graph: &Graph, component: &[u32]) -> Option<Way> {
                 is_best = false;
                 break;
             }
+            if bounds[graph.place(node)] * SURE <= length {
+                continue;
+            }
             let ways = graph.ways_from(node, n);
             let (other, there) = graph.farthest(&ends, &ways);
+            for &end in &ends {
+                let bound = &mut bounds[graph.place(end)];
+                *bound = bound.min(graph.distance(&ways, end) + there);
+            }
             if there > length {
                 (best, end, length) = (ways, other, there);
             }
@@ -69,15 +82,18 @@ struct Peeled {
     by: u32,
 }
 
-/// The longest way between two ends of an axis, if there are no cycles.
+/// The longest way between two ends of an axis, given the lengths of its paths, if there are no cycles.
 ///
 /// # Errors
 /// If there are.
-pub(super) fn in_forest(axis: &MedialAxis) -> Result<Option<Centerline>, HasCycles> {
+pub(super) fn in_forest(
+    axis: &MedialAxis,
+    length: impl Fn(u32) -> f64,
+) -> Result<Option<Centerline>, HasCycles> {
     let nothing = Peeled { left: 0, numbers: 0, reach: 0.0, by: NONE };
     let mut around = vec![nothing; axis.keypoints().len()];
-    for (number, path) in (0..).zip(axis.paths()) {
-        for end in [path.from, path.to] {
+    for (number, ends) in (0..).zip(axis.paths().all_ends()) {
+        for end in ends {
             around[end as usize].left += 1;
             around[end as usize].numbers ^= number;
         }
@@ -89,9 +105,9 @@ pub(super) fn in_forest(axis: &MedialAxis) -> Result<Option<Centerline>, HasCycl
         let mut keypoint = leaf;
         while around[keypoint as usize].left == 1 {
             let Peeled { numbers: number, reach, .. } = around[keypoint as usize];
-            let path = axis.paths().at(number);
-            let other = if path.from == keypoint { path.to } else { path.from };
-            let arm = reach + axis.curve(&path).length();
+            let [from, to] = axis.paths().ends(number);
+            let other = if from == keypoint { to } else { from };
+            let arm = reach + length(number);
             around[keypoint as usize].left = 0;
             let there = &mut around[other as usize];
             there.left -= 1;

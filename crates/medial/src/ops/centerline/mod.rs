@@ -36,6 +36,7 @@ pub use polyline::{LineOptions, polylines};
 
 use super::hierarchy::{Hierarchy, HierarchyError};
 use super::measure::Measure;
+use super::rest::{Origin, Pruned};
 use crate::axis::MedialAxis;
 use crate::domain::Domain;
 use crate::geom::Point;
@@ -182,11 +183,33 @@ pub fn centerlines(
     axis: &MedialAxis,
     options: &CenterlineOptions,
 ) -> Result<Vec<Centerline>, CenterlineError> {
-    let (measure, value) = options.ends;
-    let pruned = Hierarchy::new(domain, axis)?.pruned(measure, value).axis;
+    Hierarchy::new(domain, axis)?.centerlines(options)
+}
+
+impl Hierarchy<'_> {
+    /// What [`centerlines`] gives, for who has the hierarchy already.
+    ///
+    /// # Errors
+    /// If points between which a line is to run are too few, or in different components.
+    pub fn centerlines(
+        &self,
+        options: &CenterlineOptions,
+    ) -> Result<Vec<Centerline>, CenterlineError> {
+        let (measure, value) = options.ends;
+        best_lines(self, &self.pruned(measure, value), options)
+    }
+}
+
+/// The best lines through what was left of an axis.
+fn best_lines(
+    hierarchy: &Hierarchy<'_>,
+    Pruned { axis: pruned, origins, .. }: &Pruned,
+    options: &CenterlineOptions,
+) -> Result<Vec<Centerline>, CenterlineError> {
+    let (domain, axis) = (hierarchy.given, hierarchy.axis);
     let all: Vec<u32> = (0..pruned.paths().len() as u32).collect();
-    let of_points = graph::paths_of_points(&pruned, axis);
-    let parts = [(&pruned, &all[..]), (axis, &of_points[..])];
+    let of_points = graph::paths_of_points(pruned, axis);
+    let parts = [(pruned, &all[..]), (axis, &of_points[..])];
     let count = options.count;
     let lines = match &options.route {
         Route::Between(points) => {
@@ -195,9 +218,13 @@ pub fn centerlines(
         }
         Route::Longest => {
             // Mostly there is one line to be found in one forest.
+            let length = |path: u32| match origins[path as usize] {
+                Origin { path, part: [0.0, 1.0] } => hierarchy.fire.lengths[path as usize],
+                _ => pruned.length_of(&pruned.paths().at(path)),
+            };
             if count == 1
                 && of_points.is_empty()
-                && let Ok(line) = longest::in_forest(&pruned)
+                && let Ok(line) = longest::in_forest(pruned, length)
             {
                 return Ok(line.into_iter().map(|line| extended(domain, line, options)).collect());
             }
