@@ -142,7 +142,8 @@ impl Comparison {
             match run {
                 Ok(found) => {
                     out += &line(*engine, found, self.graph(*engine, found));
-                    if let Some(difference) = found.difference.filter(|d| !d.is_same_graph()) {
+                    let graph = found.difference.filter(|_| engine.is_exact());
+                    if let Some(difference) = graph.filter(|d| !d.is_same_graph()) {
                         out += &told(&difference);
                     }
                 }
@@ -158,6 +159,7 @@ impl Comparison {
         match found.difference {
             _ if self.reference == Some(engine) => "reference",
             None => "",
+            Some(_) if !engine.is_exact() => "sampled",
             Some(difference) if difference.is_same_graph() => "same",
             Some(_) => "other",
         }
@@ -168,6 +170,8 @@ impl Comparison {
             let found = run.as_ref().ok();
             let refusal = run.as_ref().err();
             let difference = found.and_then(|found| found.difference);
+            // Samples are no keypoints of the exact graph.
+            let graph = difference.filter(|_| engine.is_exact());
             Row {
                 feature: self.feature,
                 id: self.id.as_ref(),
@@ -179,13 +183,13 @@ impl Comparison {
                 seconds: found.map(|found| found.time.as_secs_f64()),
                 memory_bytes: found.and_then(|found| found.memory),
                 reference: self.reference.map(Engine::name),
-                same_graph: difference.map(|d| d.is_same_graph()),
-                missing_keypoints: difference.map(|d| d.missing_keypoints),
-                extra_keypoints: difference.map(|d| d.extra_keypoints),
-                missing_paths: difference.map(|d| d.missing_paths),
-                extra_paths: difference.map(|d| d.extra_paths),
-                position: difference.map(|d| d.position),
-                radius: difference.map(|d| d.radius),
+                same_graph: graph.map(|d| d.is_same_graph()),
+                missing_keypoints: graph.map(|d| d.missing_keypoints),
+                extra_keypoints: graph.map(|d| d.extra_keypoints),
+                missing_paths: graph.map(|d| d.missing_paths),
+                extra_paths: graph.map(|d| d.extra_paths),
+                position: graph.map(|d| d.position),
+                radius: graph.map(|d| d.radius),
                 distance: difference.map(|d| d.distance),
                 missed: difference.map(|d| d.missed),
                 code: refusal.map(|entry| entry.code),
@@ -317,6 +321,7 @@ impl Totals {
         out += &heads();
         for (engine, total) in &self.engines {
             let graph = match total.other {
+                _ if !engine.is_exact() => "sampled".to_owned(),
                 0 => "same".to_owned(),
                 n => format!("{n} other"),
             };
@@ -376,7 +381,11 @@ fn heads() -> String {
 fn line(engine: Engine, found: &Found, graph: &str) -> String {
     let apart = found.difference.map(|d| [d.position, d.radius, d.distance, d.missed]);
     let apart = apart.map_or_else(Default::default, |apart| apart.map(tiny));
-    let [position, radius, distance, missed] = apart;
+    let [mut position, mut radius, distance, missed] = apart;
+    if !engine.is_exact() {
+        position.clear();
+        radius.clear();
+    }
     format!(
         "  {:18} {:>9} {:>9} {:>8} {:>8} {:>9} {:>9} {:>9} {:>9} {:>9}\n",
         engine,

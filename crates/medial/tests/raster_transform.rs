@@ -35,7 +35,7 @@ fn random(seed: u64) -> Mask {
         _ => {}
     }
     let mut mask = Mask::empty(grid).unwrap();
-    if seed % 3 == 0 {
+    if seed.is_multiple_of(3) {
         let fill = dice.next(101);
         return Mask::new(grid, |_, _| dice.next(100) < fill).unwrap();
     }

@@ -136,7 +136,7 @@ impl Bits {
     pub fn put_row(&mut self, y: u32, bytes: &[u8]) {
         let (at, n) = (self.byte(0, y as i32), (self.columns as usize).div_ceil(8));
         self.data[at..at + n].copy_from_slice(&bytes[..n]);
-        if self.columns % 8 != 0 {
+        if !self.columns.is_multiple_of(8) {
             self.data[at + n - 1] &= (1 << (self.columns % 8)) - 1;
         }
     }

@@ -186,11 +186,8 @@ impl PixelGraph {
     /// Drops nodes, after the ends of steps went over to others. Steps within a node go.
     fn keep(&mut self, dropped: &[bool], target: impl Fn(u32) -> u32) {
         let mut number = vec![u32::MAX; self.cells.len()];
-        let mut next = 0;
-        for (number, _) in number.iter_mut().zip(dropped).filter(|(_, dropped)| !**dropped) {
-            *number = next;
-            next += 1;
-        }
+        let kept = number.iter_mut().zip(dropped).filter(|(_, dropped)| !**dropped);
+        (0..).zip(kept).for_each(|(new, (number, _))| *number = new);
         let mut kept = dropped.iter().map(|dropped| !dropped);
         self.cells.retain(|_| kept.next().unwrap_or(true));
         self.steps.retain_mut(|ends| {

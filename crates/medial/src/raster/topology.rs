@@ -40,7 +40,7 @@ pub(super) fn of_bits(bits: &Bits) -> Topology {
 fn sets(rows: u32, reach: u32, runs_of: impl Fn(u32, &mut Vec<(u32, u32)>)) -> u32 {
     let mut parent: Vec<u32> = Vec::new();
     let mut joined = 0;
-    let (mut above, mut runs): (Vec<(u32, u32)>, Vec<(u32, u32)>) = Default::default();
+    let [mut above, mut runs] = [const { Vec::new() }; 2];
     for y in 0..rows {
         std::mem::swap(&mut above, &mut runs);
         runs.clear();
