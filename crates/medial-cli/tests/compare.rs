@@ -123,8 +123,8 @@ fn bad_features_are_left_out_and_the_others_compared() {
 
 #[test]
 fn the_table_for_people_has_a_line_for_each_engine_and_one_for_all_features() {
-    let words = [&["compare", "-", "--to", "text"][..], &EXACT].concat();
-    let run = medial_with(&words, RECTANGLE);
+    let asked = [&["compare", "-", "--to", "text"][..], &EXACT].concat();
+    let run = medial_with(&asked, RECTANGLE);
     let lines: Vec<&str> = run.text().lines().collect();
     assert_eq!(lines.len(), 4, "{}", run.text());
     assert_eq!(lines[0], "feature 0: 4 edges");
@@ -134,7 +134,7 @@ fn the_table_for_people_has_a_line_for_each_engine_and_one_for_all_features() {
     let words: Vec<&str> = lines[3].split_whitespace().collect();
     assert_eq!(words[7..], ["same", "0", "0", "0", "0"]);
     let two = format!("{RECTANGLE}\n{RECTANGLE}");
-    let run = medial_with(&words, &two);
+    let run = medial_with(&asked, &two);
     let all = run.text().split("all 2 features: 8 edges\n").nth(1).unwrap();
     let words: Vec<&str> = all.lines().nth(1).unwrap().split_whitespace().collect();
     assert_eq!(words[..3], ["path_tracing", "12", "10"]);

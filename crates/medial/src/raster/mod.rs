@@ -19,7 +19,7 @@ pub(crate) use bits::{Bits, SIMPLE, WINDOW_RING};
 pub use digitise::{DigitiseError, boundary_cells, default_cell, digitise, grid_around};
 pub(crate) use disks::disk_cells;
 pub use disks::mask_of_disks;
-pub(crate) use features::{Features, offset};
+pub(crate) use features::Features;
 pub use grid::Grid;
 pub use mask::{Mask, MaskError};
 pub(crate) use outline::{Cracks, Side};

@@ -24,6 +24,40 @@ fn middle(x: i32, y: i32, side: Side) -> (i32, i32) {
     }
 }
 
+/// Where on the outline a foot is.
+#[derive(Clone, Copy)]
+struct Foot {
+    contour: u32,
+    /// Length along it.
+    along: f64,
+    /// The middle of the crack, in half cells.
+    middle: (i32, i32),
+}
+
+/// No foot has been looked up yet.
+const UNKNOWN: Foot = Foot { contour: u32::MAX, along: 0.0, middle: (0, 0) };
+
+/// A row of cells: what is known of each, from one column before the first.
+struct Row {
+    y: i32,
+    /// The greatest residual so far; negative for none.
+    residuals: Vec<f32>,
+    /// Feet that were asked for.
+    feet: Vec<Foot>,
+}
+
+impl Row {
+    fn new(columns: usize, y: i32) -> Self {
+        Self { y, residuals: vec![-1.0; columns + 2], feet: vec![UNKNOWN; columns + 2] }
+    }
+
+    #[inline(always)]
+    fn raise(&mut self, x: i32, value: f32) {
+        let at = &mut self.residuals[(x + 1) as usize];
+        *at = at.max(value);
+    }
+}
+
 /// What the test of a pair of neighbours needs.
 struct Pairs<'a> {
     features: &'a Features,
@@ -32,65 +66,94 @@ struct Pairs<'a> {
 }
 
 impl Pairs<'_> {
-    /// A cell outside that is nearest to one: columns and rows to it, which are none for a cell outside.
+    /// Columns and rows from a cell to the one outside that is nearest; none for a cell outside.
     #[inline(always)]
-    fn foot(&self, place: usize, inside: bool) -> (i32, i32) {
-        if inside { crate::raster::offset(self.features.cells[place]) } else { (0, 0) }
+    fn offset(&self, x: i32, y: i32, inside: bool) -> (i32, i32) {
+        if inside { self.features.offset(x, y) } else { (0, 0) }
     }
 
-    /// The residual between the feet of two cells.
-    ///
-    /// `from` is a cell, and `to` another one; both with the way to their foot. A cell outside is its own
-    /// foot, and faces the other one.
-    #[cold]
-    fn residual(&self, from: ([i32; 2], (i32, i32)), to: ([i32; 2], (i32, i32))) -> f32 {
-        let crack = |[x, y]: [i32; 2], (dx, dy): (i32, i32), [u, v]: [i32; 2]| {
-            let (foot_x, foot_y) = (x + dx, y + dy);
-            let side = if (dx, dy) == (0, 0) {
-                Side::facing(u - x, v - y)
-            } else {
-                Side::facing(-dx, -dy)
-            };
-            let record = self.features.cells[self.features.place(foot_x, foot_y)];
-            let (contour, along) = self.cracks.position(self.cracks.at(record, side));
-            (contour, along, middle(foot_x, foot_y, side))
-        };
-        let (contour, along, (x1, y1)) = crack(from.0, from.1, to.0);
-        let (other, beside, (x2, y2)) = crack(to.0, to.1, from.0);
-        if contour != other {
+    /// The crack of a cell outside on one side.
+    fn crack(&self, x: i32, y: i32, side: Side) -> Foot {
+        let record = self.features.cells[self.features.place(x, y)];
+        let (contour, along) = self.cracks.position(self.cracks.at(record, side));
+        Foot { contour, along, middle: middle(x, y, side) }
+    }
+
+    /// The foot of a cell of the shape, or the crack of one outside that faces such a cell so many columns
+    /// and rows away.
+    #[inline(always)]
+    fn foot(&self, row: &mut Row, x: i32, (dx, dy): (i32, i32), to: [i32; 2]) -> Foot {
+        if (dx, dy) == (0, 0) {
+            return self.crack(x, row.y, Side::facing(to[0], to[1]));
+        }
+        let known = &mut row.feet[(x + 1) as usize];
+        if known.contour == u32::MAX {
+            *known = self.crack(x + dx, row.y + dy, Side::facing(-dx, -dy));
+        }
+        *known
+    }
+
+    /// By how much the way along the outline between two feet is longer than the straight one.
+    fn residual(&self, a: Foot, b: Foot) -> f32 {
+        if a.contour != b.contour {
             return f32::INFINITY;
         }
-        let way = (along - beside).abs();
-        let way = way.min(self.cracks.contours[contour as usize].length - way);
-        let (dx, dy) = (0.5 * f64::from(x1 - x2), 0.5 * f64::from(y1 - y2));
+        let way = (a.along - b.along).abs();
+        let way = way.min(self.cracks.contours[a.contour as usize].length - way);
+        let (dx, dy) = (a.middle.0 - b.middle.0, a.middle.1 - b.middle.1);
         // Cracks along rows are as long as those along columns, whatever the shape of the cells: the
         // residual counts cells.
-        (way - (dx * dx + dy * dy).sqrt()) as f32
+        let squared = i64::from(dx) * i64::from(dx) + i64::from(dy) * i64::from(dy);
+        (way - 0.5 * (squared as f64).sqrt()) as f32
     }
 
-    /// The residuals that a pair of neighbours, the second so many columns and rows after the first one,
-    /// gives to each of them; negative for none.
+    /// Which cells of a pair of neighbours lie between two feet that are apart; `step` leads from the first
+    /// one to the second.
     #[inline(always)]
-    fn pair(&self, x: i32, y: i32, [sx, sy]: [i32; 2], first: bool, second: bool) -> [f32; 2] {
-        let place = self.features.place(x, y);
-        let next = self.features.place(x + sx, y + sy);
-        let (a, b) = (self.foot(place, first), self.foot(next, second));
+    fn between(
+        &self,
+        a: (i32, i32),
+        b: (i32, i32),
+        [sx, sy]: [i32; 2],
+        [first, second]: [bool; 2],
+    ) -> [bool; 2] {
         // Both feet, from the first cell.
-        let b_from_first = (b.0 + sx, b.1 + sy);
-        let (dx, dy) = (a.0 - b_from_first.0, a.1 - b_from_first.1);
+        let b = (b.0 + sx, b.1 + sy);
+        let (dx, dy) = (a.0 - b.0, a.1 - b.1);
         if dx * dx + dy * dy <= 1 {
-            return [-1.0; 2];
+            return [false; 2];
         }
         // Which of the two cells is nearer to the bisector of the feet.
-        let along_x = f64::from(dx * (a.0 + b_from_first.0 - sx));
-        let along_y = f64::from(dy * (a.1 + b_from_first.1 - sy));
+        let along_x = f64::from(dx * (a.0 + b.0 - sx));
+        let along_y = f64::from(dy * (a.1 + b.1 - sy));
         let side = along_x + self.aspect * along_y;
-        let (to_first, to_second) = (first && side >= 0.0, second && side <= 0.0);
-        if !to_first && !to_second {
-            return [-1.0; 2];
+        [first && side >= 0.0, second && side <= 0.0]
+    }
+
+    /// Takes the pair of a cell and the next one of its row.
+    #[inline(always)]
+    fn across(&self, row: &mut Row, x: i32, inside: [bool; 2]) {
+        let (a, b) = (self.offset(x, row.y, inside[0]), self.offset(x + 1, row.y, inside[1]));
+        let [to_first, to_second] = self.between(a, b, [1, 0], inside);
+        if to_first || to_second {
+            let feet = (self.foot(row, x, a, [1, 0]), self.foot(row, x + 1, b, [-1, 0]));
+            let residual = self.residual(feet.0, feet.1);
+            row.raise(x, if to_first { residual } else { -1.0 });
+            row.raise(x + 1, if to_second { residual } else { -1.0 });
         }
-        let residual = self.residual(([x, y], a), ([x + sx, y + sy], b));
-        [if to_first { residual } else { -1.0 }, if to_second { residual } else { -1.0 }]
+    }
+
+    /// Takes the pair of a cell and the one below it.
+    #[inline(always)]
+    fn down(&self, row: &mut Row, below: &mut Row, x: i32, inside: [bool; 2]) {
+        let (a, b) = (self.offset(x, row.y, inside[0]), self.offset(x, below.y, inside[1]));
+        let [to_first, to_second] = self.between(a, b, [0, 1], inside);
+        if to_first || to_second {
+            let feet = (self.foot(row, x, a, [0, 1]), self.foot(below, x, b, [0, -1]));
+            let residual = self.residual(feet.0, feet.1);
+            row.raise(x, if to_first { residual } else { -1.0 });
+            below.raise(x, if to_second { residual } else { -1.0 });
+        }
     }
 }
 
@@ -104,51 +167,43 @@ pub(super) fn medial_cells(
 ) -> Vec<MedialCell> {
     let pairs = Pairs { features, cracks, aspect };
     let columns = bits.columns() as usize;
+    let rows = bits.rows() as i32;
     let mut found = Vec::new();
-    // Residuals of a row and of the next one, from one column before the first.
-    let (mut own, mut below) = (vec![-1.0_f32; columns + 2], vec![-1.0_f32; columns + 2]);
-    let raise = |row: &mut [f32], x: i32, value: f32| {
-        let at = &mut row[(x + 1) as usize];
-        *at = at.max(value);
-    };
-    for y in -1..bits.rows() as i32 {
+    let (mut own, mut below) = (Row::new(columns, -1), Row::new(columns, 0));
+    for y in -1..rows {
         if y >= 0 {
             for (from, to) in bits.runs(y as u32) {
+                let (from, to) = (from as i32, to as i32);
                 // Pairs within the row, with the cells before and behind the run.
-                for x in from as i32 - 1..to as i32 {
-                    let (first, second) = (x >= from as i32, x + 1 < to as i32);
-                    let [a, b] = pairs.pair(x, y, [1, 0], first, second);
-                    raise(&mut own, x, a);
-                    raise(&mut own, x + 1, b);
+                for x in from - 1..to {
+                    pairs.across(&mut own, x, [x >= from, x + 1 < to]);
                 }
-                // Pairs with the cells below.
-                for x in from as i32..to as i32 {
-                    let [a, b] = pairs.pair(x, y, [0, 1], true, bits.get(x, y + 1));
-                    raise(&mut own, x, a);
-                    raise(&mut below, x, b);
+                for x in from..to {
+                    pairs.down(&mut own, &mut below, x, [true, bits.get(x, y + 1)]);
                 }
             }
         }
         // Pairs of a cell outside with one of the shape below it.
-        if y + 1 < bits.rows() as i32 {
+        if y + 1 < rows {
             for (from, to) in bits.runs((y + 1) as u32) {
                 for x in (from as i32..to as i32).filter(|&x| !bits.get(x, y)) {
-                    let [_, b] = pairs.pair(x, y, [0, 1], false, true);
-                    raise(&mut below, x, b);
+                    pairs.down(&mut own, &mut below, x, [false, true]);
                 }
             }
         }
         if y >= 0 {
             for (from, to) in bits.runs(y as u32) {
-                for x in from..to {
-                    let residual = &mut own[x as usize + 1];
+                let span = from as usize + 1..to as usize + 1;
+                for (x, residual) in (from..).zip(&mut own.residuals[span.clone()]) {
                     if *residual > threshold {
                         found.push(MedialCell { x, y: y as u32, residual: *residual });
                     }
                     *residual = -1.0;
                 }
+                own.feet[span].fill(UNKNOWN);
             }
         }
+        own.y = y + 2;
         std::mem::swap(&mut own, &mut below);
     }
     found
