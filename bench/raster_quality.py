@@ -126,7 +126,7 @@ def centred(medial, folder, mask, cells):
         return None
     tree = shapely.STRtree([part for g in axis for part in getattr(g, "geoms", [g])])
     y, x = np.nonzero(cells)
-    points = shapely.points(x + 0.5, y + 0.5)
+    points = shapely.points(x + 0.5, -(y + 0.5))
     _, distances = tree.query_nearest(points, return_distance=True, all_matches=False)
     return float(np.mean(distances))
 

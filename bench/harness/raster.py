@@ -6,7 +6,7 @@ from . import BENCH
 from .run import Unfinished, run, short
 
 # Pinned, so that the page can be drawn up again.
-PEERS = ["scikit-image==0.26.0", "opencv-contrib-python-headless==5.0.0.93", "shapely==2.1.2",
+PEERS = ["scikit-image==0.26.0", "opencv-contrib-python-headless==5.0.0.93", "shapely==2.2.0",
          "imageio==2.38.1"]
 
 # Seconds of processor time for one run.
