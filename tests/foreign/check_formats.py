@@ -2,13 +2,14 @@
 
     python tests/foreign/check_formats.py MEDIAL [DATA]
 
-GDAL (by pyogrio), pyarrow and pyshp write layers, and the command has to find in them what it finds in
+GDAL (by pyogrio and by its program ogrinfo), pyarrow and pyshp write layers, and the command has to find in them what it finds in
 GeoJSON; they read what the command writes, and have to find the same doubles. DATA is the folder of real
 data, if it is there; the shipped fixtures are used in any case. What is needed is in requirements.txt.
 """
 
 import json
 import pathlib
+import re
 import sqlite3
 import subprocess
 import sys
@@ -288,6 +289,31 @@ def sequences(folder):
     check(len(lines(folder / "in.geojsonl")) == 6, "sequence in")
 
 
+def by_ogrinfo(source, folder):
+    """The program `ogrinfo` of GDAL finds as many lines in every format, of the same kind, in the same box."""
+    medial("axis", source, "-q", "-o", folder / "axes.geojsonl")
+    features = [json.loads(line) for line in (folder / "axes.geojsonl").read_text().splitlines()]
+    box = shapely.total_bounds([shapely.LineString(f["geometry"]["coordinates"]) for f in features])
+    for extension in ("gpkg", "shp", "fgb", "geojson", "geojsons", "csv", "dxf"):
+        path = folder / f"told.{extension}"
+        medial("axis", source, "-q", "-o", path)
+        # CSV has its shapes as text.
+        options = ["-oo", "GEOM_POSSIBLE_NAMES=WKT"] if extension == "csv" else []
+        words = ["ogrinfo", "-ro", "-al", "-so", *options, path]
+        told = subprocess.run(list(map(str, words)), capture_output=True, text=True, check=True).stdout
+        count = int(re.search(r"Feature Count: (\d+)", told)[1])
+        check(count == len(features), f"ogrinfo {path.name}: {count} features for {len(features)}")
+        if extension == "dxf":
+            # Parabolas are splines, which GDAL draws with points of its own.
+            continue
+        if extension != "csv":
+            check(re.search(r"Geometry: (3D )?Line String", told), f"ogrinfo {path.name}: {told}")
+        extent = re.search(r"Extent: \(([^,]+), ([^)]+)\) - \(([^,]+), ([^)]+)\)", told)
+        found = np.array([float(number) for number in extent.groups()])
+        check(np.allclose(found, box, rtol=0, atol=1e-6), f"ogrinfo {path.name}: {found} for {box}")
+    print(f"{source.name}: {len(features)} paths told by ogrinfo")
+
+
 def main(data):
     sources = [FIXTURES / "river.geojson"]
     if data:
@@ -298,6 +324,7 @@ def main(data):
         with tempfile.TemporaryDirectory() as folder:
             input_layers(source, pathlib.Path(folder))
             output_layers(source, pathlib.Path(folder))
+            by_ogrinfo(source, pathlib.Path(folder))
             spatial_filters(pathlib.Path(folder))
             geopackage_rules(pathlib.Path(folder))
             parquet_rules(pathlib.Path(folder))
