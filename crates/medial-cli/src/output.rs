@@ -3,6 +3,7 @@ use crate::interrupt;
 use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
 use tempfile::NamedTempFile;
 
 /// Bytes gathered before they are handed to the system.
@@ -17,6 +18,22 @@ pub enum Output {
         text: io::BufWriter<NamedTempFile>,
         path: PathBuf,
     },
+}
+
+/// The files that a run is going to write.
+static TAKEN: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
+
+/// Fails if two outputs are to be one file, of which the last would be all that is left.
+fn take(folder: &Path, path: &Path, name: &str) -> Result<(), Failure> {
+    let folder = fs::canonicalize(folder).unwrap_or_else(|_| folder.to_owned());
+    let place = folder.join(path.file_name().unwrap_or_default());
+    let mut taken = TAKEN.lock().unwrap_or_else(PoisonError::into_inner);
+    if taken.contains(&place) {
+        let why = format!("{name} is named for two outputs; give each a file of its own");
+        return Err(Failure::Usage(why));
+    }
+    taken.push(place);
+    Ok(())
 }
 
 impl Output {
@@ -38,6 +55,7 @@ impl Output {
             return Ok(Self::Direct(io::BufWriter::with_capacity(BUFFER, file), name));
         }
         let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        take(folder, &path, &name)?;
         let mut builder = tempfile::Builder::new();
         builder.prefix(".medial-");
         #[cfg(unix)]

@@ -400,3 +400,16 @@ fn a_convex_polygon_has_no_paths_outside() {
     let run = medial_with(&["axis", "-", "--side", "exterior", "--to", "svg"], RECTANGLE);
     assert_eq!(run.status, Some(0));
 }
+
+#[test]
+fn two_outputs_are_two_files() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = fixture("shapes/l_with_unit_arms.wkt").display().to_string();
+    let target = folder.path().join("all.json").display().to_string();
+    for option in ["--report", "--timings"] {
+        let run = medial(&["axis", &file, "-o", &target, option, &target]);
+        assert_eq!(run.status, Some(2), "{}", run.errors);
+        assert!(run.errors.contains("is named for two outputs"), "{}", run.errors);
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
+    }
+}
