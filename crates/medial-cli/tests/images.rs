@@ -147,3 +147,18 @@ fn polygons_are_put_into_cells() {
     let run = medial(&["axis", file, "--engine", "raster-transform", "--side", "exterior"]);
     assert!(run.errors.contains("use path_tracing"), "{}", run.errors);
 }
+
+#[test]
+fn a_silhouette_has_few_branches() {
+    let horse = fixture("images/horse.png");
+    let run = medial(&["branches", horse.to_str().unwrap(), "--invert", "--to", "geojsonl"]);
+    assert_eq!(run.status, Some(0), "{}", run.errors);
+    let read = lines(run.text());
+    assert!((20..40).contains(&read.len()), "{}", read.len());
+    // The body is the thickest part.
+    let most = read.iter().filter_map(|line| line["properties"]["radius_max"].as_f64());
+    assert!((most.fold(0.0, f64::max) - 52.7).abs() < 0.1);
+    let exact =
+        ["axis", horse.to_str().unwrap(), "--invert", "--engine", "path_tracing", "--to", "csv"];
+    assert!(medial(&exact).text().lines().count() > 1000);
+}
