@@ -119,3 +119,48 @@ fn tiff_images_of_many_depths_are_masks() {
     let clear = of::<colortype::RGBA8>(2, &[255, 255, 255, 0, 1, 1, 1, 255]);
     assert_eq!(drawn(Format::Tiff, &clear, &plain), [".#"]);
 }
+
+/// The smallest file with a palette, in either order of bytes: white, black, white.
+fn palette_tiff(is_little: bool) -> Vec<u8> {
+    let two = |v: u16| if is_little { v.to_le_bytes() } else { v.to_be_bytes() };
+    let four = |v: u32| if is_little { v.to_le_bytes() } else { v.to_be_bytes() };
+    let entries: [(u16, u16, u32, u32); 9] = [
+        (256, 3, 1, 3),
+        (257, 3, 1, 1),
+        (258, 3, 1, 8),
+        (259, 3, 1, 1),
+        (262, 3, 1, 3),
+        (273, 4, 1, 8),
+        (278, 3, 1, 1),
+        (279, 4, 1, 3),
+        (320, 3, 768, 126),
+    ];
+    let mut bytes = if is_little { b"II".to_vec() } else { b"MM".to_vec() };
+    bytes.extend(two(42));
+    bytes.extend(four(12));
+    bytes.extend([1, 0, 1, 0]);
+    bytes.extend(two(9));
+    for (tag, kind, count, value) in entries {
+        bytes.extend([two(tag), two(kind)].concat());
+        bytes.extend(four(count));
+        if kind == 3 && count == 1 {
+            bytes.extend([two(value as u16), two(0)].concat());
+        } else {
+            bytes.extend(four(value));
+        }
+    }
+    bytes.extend(four(0));
+    assert_eq!(bytes.len(), 126);
+    for _ in 0..3 {
+        (0..256).for_each(|k| bytes.extend(two(if k == 1 { 65_535 } else { 0 })));
+    }
+    bytes
+}
+
+#[test]
+fn palettes_of_tiff_count_by_their_brightness() {
+    for is_little in [true, false] {
+        let bytes = palette_tiff(is_little);
+        assert_eq!(drawn(Format::Tiff, &bytes, &ReadOptions::default()), ["#.#"], "{is_little}");
+    }
+}

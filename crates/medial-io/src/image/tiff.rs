@@ -33,20 +33,20 @@ pub(super) fn read(bytes: &[u8]) -> Result<Picture, Error> {
     let mut limits = Limits::default();
     limits.decoding_buffer_size = most_bytes(bytes.len());
     limits.intermediate_buffer_size = most_bytes(bytes.len());
-    let mut decoder = Decoder::new(Cursor::new(bytes)).map_err(wrong)?.with_limits(limits);
+    // The library reads no palettes: it is given the numbers of colours as if they were values.
+    let as_grey = without_palette(bytes);
+    let source = as_grey.as_deref().unwrap_or(bytes);
+    let mut decoder = Decoder::new(Cursor::new(source)).map_err(wrong)?.with_limits(limits);
     let (columns, rows) = decoder.dimensions().map_err(wrong)?;
     let colours = decoder.colortype().map_err(wrong)?;
     let place = place(&mut decoder)?;
     let no_data = decoder.get_tag_ascii_string(NO_DATA).ok();
     let no_data = no_data.and_then(|text| text.trim_matches(['\0', ' ']).parse::<f64>().ok());
-    let palette = match colours {
-        ColorType::Palette(_) => Some(palette(&mut decoder).map_err(wrong)?),
-        _ => None,
-    };
+    let palette = as_grey.as_ref().map(|_| palette(&mut decoder)).transpose().map_err(wrong)?;
     let samples = decoder.read_image().map_err(wrong)?;
     let bits = colours.bit_depth();
     let (each, n_colours, has_alpha) = match colours {
-        ColorType::Gray(_) | ColorType::Palette(_) => (1, 1, false),
+        ColorType::Gray(_) => (1, 1, false),
         ColorType::GrayA(_) => (2, 1, true),
         ColorType::RGB(_) => (3, 3, false),
         ColorType::RGBA(_) => (4, 3, true),
@@ -161,6 +161,40 @@ fn without(values: Values, no_data: Option<f64>) -> Values {
             values.into_iter().map(|v| if v == no_data { f64::NAN } else { v }).collect(),
         ),
     }
+}
+
+/// The file with values instead of a palette, if its first image has one: tag 262 says what samples mean, 3
+/// that they are numbers of colours, 1 that they are values from black on.
+fn without_palette(bytes: &[u8]) -> Option<Vec<u8>> {
+    let is_little = bytes.starts_with(b"II");
+    let number = |at: usize, n: usize| -> Option<usize> {
+        let bytes = bytes.get(at..at.checked_add(n)?)?;
+        let digits = |sum: u64, &byte: &u8| sum << 8 | u64::from(byte);
+        let value = if is_little {
+            bytes.iter().rev().fold(0, digits)
+        } else {
+            bytes.iter().fold(0, digits)
+        };
+        usize::try_from(value).ok()
+    };
+    // Both kinds of the format: with places in the file of four bytes, and of eight.
+    let (directory, count, entry, value) = match number(2, 2)? {
+        42 => (number(4, 4)?, 2, 12, 8),
+        43 => (number(8, 8)?, 8, 20, 12),
+        _ => return None,
+    };
+    let first = directory.checked_add(count)?;
+    let places =
+        (0..number(directory, count)?).map_while(|k| first.checked_add(k.checked_mul(entry)?));
+    let place =
+        places.take_while(|&at| at < bytes.len()).find(|&at| number(at, 2) == Some(262))? + value;
+    if number(place, 2)? != 3 {
+        return None;
+    }
+    let mut grey = bytes.to_vec();
+    let one = if is_little { 1_u16.to_le_bytes() } else { 1_u16.to_be_bytes() };
+    grey[place..place + 2].copy_from_slice(&one);
+    Some(grey)
 }
 
 /// The brightness of the colours of a palette, up to 65,535.
