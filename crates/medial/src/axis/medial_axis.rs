@@ -15,6 +15,10 @@ pub enum Engine {
     DivideAndConquer,
     /// Distances and thinning on cells: sampled, with the topology of the mask.
     RasterTransform,
+    /// Following of ridges from cell to cell after Volkmann and St. Clair: sampled.
+    RidgeFollowing,
+    /// Burning of cells layer by layer: sampled.
+    Brushfire,
 }
 
 impl Engine {

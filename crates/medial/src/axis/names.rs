@@ -54,7 +54,8 @@ pub(crate) use names;
 names!(
     Engine, "engine",
     PathTracing => "path_tracing", DivideAndConquer => "divide_and_conquer",
-    RasterTransform => "raster_transform",
+    RasterTransform => "raster_transform", RidgeFollowing => "ridge_following",
+    Brushfire => "brushfire",
 );
 names!(Side, "side", Interior => "interior", Exterior => "exterior");
 names!(CurveKind, "curve", Line => "line", Parabola => "parabola", Polyline => "polyline");

@@ -136,7 +136,10 @@ fn seen_by_samples(context: &Context, counts: &Counts) -> Option<(i64, i64)> {
     let holes = components as i64 - (2 * counts.components as i64 - counts.walks as i64 - shared);
     let differs = components != counts.components || shared > 0;
     let fits = counts.axis_components == components;
-    (differs && fits).then_some((components as i64 + holes, components as i64))
+    // Or they may not, and then all is as it is for an exact axis.
+    let is_as_told = counts.axis_components == counts.components
+        && counts.cycles + counts.components == counts.walks;
+    (differs && fits && !is_as_told).then_some((components as i64 + holes, components as i64))
 }
 
 /// Joints of sites whose common normal goes to infinity, at the ends of edges on the hull.

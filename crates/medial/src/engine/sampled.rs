@@ -13,7 +13,7 @@ use crate::axis::{
     self, Accuracy, Engine, Keypoint, KeypointKind, KeypointTable, MedialAxis, Path, PathTable,
     Side, SiteTable,
 };
-use crate::domain::{Corner, Domain, EdgeTree, Site};
+use crate::domain::{Complement, Corner, Domain, EdgeTree, Site};
 use crate::geom::Point;
 use crate::raster::{Cracks, Features, Grid, Mask, PixelGraph, Side as CellSide};
 
@@ -118,11 +118,21 @@ pub(super) struct DomainBoundary<'a> {
     domain: &'a Domain,
     grid: &'a Grid,
     tree: EdgeTree,
+    /// The side of the polygons that the domain is.
+    side: Side,
 }
 
 impl<'a> DomainBoundary<'a> {
     pub fn new(domain: &'a Domain, grid: &'a Grid) -> Self {
-        Self { domain, grid, tree: EdgeTree::new(domain, domain.walks()) }
+        Self { domain, grid, tree: EdgeTree::new(domain, domain.walks()), side: Side::Interior }
+    }
+
+    /// The same boundary seen from outside. The frame is none.
+    pub fn outside(complement: &'a Complement, grid: &'a Grid) -> Self {
+        let domain = complement.domain();
+        let walks = domain.walks().iter().filter(|walk| !complement.is_frame(walk.first));
+        let tree = EdgeTree::new(domain, &walks.copied().collect::<Vec<_>>());
+        Self { domain, grid, tree, side: Side::Exterior }
     }
 
     /// The element nearest to a point, its distance, and the way to it.
@@ -167,7 +177,12 @@ impl Boundary for DomainBoundary<'_> {
     }
 
     fn record(&self, element: u32) -> axis::Site {
-        site_record(self.domain, Site(element))
+        let mut record = site_record(self.domain, Site(element));
+        if self.side == Side::Exterior {
+            // Edges have the interior of the polygons to their left, whatever the side.
+            std::mem::swap(&mut record.a, &mut record.b);
+        }
+        record
     }
 }
 
@@ -175,6 +190,7 @@ impl Boundary for DomainBoundary<'_> {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Label {
     pub engine: Engine,
+    pub side: Side,
     pub complete: bool,
     /// The size of a cell.
     pub cell: f64,
@@ -213,7 +229,10 @@ pub(super) fn axis_of_cells(
     sites.shrink();
     let mut keypoints = KeypointTable::with_room(graph.cells.len());
     for ((node, &[x, y]), list) in (0..).zip(&graph.cells).zip(lists) {
+        // The axis outside goes on where the array ends.
+        let is_last = x == 0 || y == 0 || x + 1 == grid.columns || y + 1 == grid.rows;
         let kind = match starts[node + 1] - starts[node] {
+            0 | 1 if is_last && label.side == Side::Exterior => KeypointKind::Clipped,
             0 | 1 => KeypointKind::Tip,
             2 => KeypointKind::Transition,
             _ => KeypointKind::Junction,
@@ -230,9 +249,9 @@ pub(super) fn axis_of_cells(
         paths.push(&Path { from, to, left, right }, &keypoints);
     }
     paths.shrink();
-    let Label { engine, complete, cell } = label;
+    let Label { engine, side, complete, cell } = label;
     let accuracy = Accuracy::Sampled(cell);
-    Ok(MedialAxis::from_tables(engine, Side::Interior, accuracy, complete, sites, keypoints, paths))
+    Ok(MedialAxis::from_tables(engine, side, accuracy, complete, sites, keypoints, paths))
 }
 
 /// The direction of a step, in columns and rows.

@@ -150,6 +150,66 @@ pub fn boundary_cells(domain: &Domain, grid: &Grid) -> Result<Mask, MaskError> {
     Ok(mask)
 }
 
+/// The cells that the boundary of a domain is drawn with: one for each column of a flat edge, one for each row
+/// of a steep one, the nearest to the edge, after Bresenham; and those with its ends.
+///
+/// Cells of one edge are neighbours by sides or corners. Edges are drawn from where they end, not from the
+/// centres of the cells there, so no cell drawn is farther than half a cell from its edge, counted across.
+///
+/// ```
+/// use medial::domain::{Domain, Options};
+/// use medial::geom::Point;
+/// use medial::raster::{grid_around, line_cells};
+/// let triangle = [(0., 0.), (4., 0.), (4., 4.)].map(|(x, y)| Point::new(x, y));
+/// let domain = Domain::from_polygons(&[vec![triangle.to_vec()]], &Options::default())?;
+/// let mask = line_cells(&domain, &grid_around(&domain, 1.0, 1)?)?;
+/// // On the diagonal one cell in each row, beside that of the upright side.
+/// assert_eq!(mask.cells(2).collect::<Vec<_>>(), [2, 5]);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// If the grid has too many cells.
+pub fn line_cells(domain: &Domain, grid: &Grid) -> Result<Mask, MaskError> {
+    let mut mask = Mask::empty(*grid)?;
+    for (number, edge) in (0..).zip(domain.edges()) {
+        draw(&mut mask, grid.locate(edge.start), grid.locate(domain.end(number)));
+    }
+    Ok(mask)
+}
+
+/// Draws a line between two places, given as columns and rows from the origin.
+fn draw(mask: &mut Mask, from: [f64; 2], to: [f64; 2]) {
+    let Grid { columns, rows, .. } = *mask.grid();
+    let mut put = |column: f64, row: f64| {
+        let (x, y) = (column.floor(), row.floor());
+        if 0.0 <= x && x < f64::from(columns) && 0.0 <= y && y < f64::from(rows) {
+            mask.bits.set(x as i32, y as i32);
+        }
+    };
+    put(from[0], from[1]);
+    put(to[0], to[1]);
+    // Along the columns of a flat line, along the rows of a steep one.
+    let is_steep = (to[1] - from[1]).abs() > (to[0] - from[0]).abs();
+    let (long, short) = if is_steep { (1, 0) } else { (0, 1) };
+    let (a, b) = if from[long] <= to[long] { (from, to) } else { (to, from) };
+    if a[long] == b[long] {
+        return;
+    }
+    let slope = (b[short] - a[short]) / (b[long] - a[long]);
+    let n = f64::from(if is_steep { rows } else { columns });
+    let mut at = (a[long] - 0.5).ceil().max(0.0) + 0.5;
+    while at <= b[long] && at < n {
+        let across = a[short] + (at - a[long]) * slope;
+        if is_steep {
+            put(across, at)
+        } else {
+            put(at, across)
+        }
+        at += 1.0;
+    }
+}
+
 /// Whether a closed cell meets a closed segment.
 fn meets(grid: &Grid, column: u32, row: u32, a: Point, b: Point) -> bool {
     let corners = [(0, 0), (1, 0), (1, 1), (0, 1)].map(|(x, y)| grid.corner(column + x, row + y));

@@ -1,6 +1,6 @@
 //! The plane cut into cells: which of them belong to a shape, and what follows from that alone.
 //!
-//! A [`Mask`] is the spatial occupancy array of [VSC87], cells in rows that a [`Grid`] places in the plane.
+//! A [`Mask`] is the spatial occupancy array of \[VS87\], cells in rows that a [`Grid`] places in the plane.
 //! Cells of the shape are neighbours of all eight around them, other cells of four; so an outline that touches
 //! itself at a corner goes on there, and counts of components and holes are of that topology ([`topology`]).
 //! Whatever lies outside of the array is outside of the shape.
@@ -16,13 +16,15 @@ mod pixel_graph;
 mod topology;
 
 pub(crate) use bits::{Bits, SIMPLE, WINDOW_RING};
-pub use digitise::{DigitiseError, boundary_cells, default_cell, digitise, grid_around};
+pub use digitise::{
+    DigitiseError, boundary_cells, default_cell, digitise, grid_around, line_cells,
+};
 pub(crate) use disks::disk_cells;
 pub use disks::mask_of_disks;
 pub(crate) use features::Features;
 pub use grid::Grid;
 pub use mask::{Mask, MaskError};
-pub(crate) use outline::{Cracks, Side};
+pub(crate) use outline::{Contour, Cracks, Side};
 pub use outline::{MaskOutline, outline};
 pub use pixel_graph::PixelGraph;
 pub use topology::{Topology, topology};

@@ -23,7 +23,8 @@ mod frame;
 use super::divide_and_conquer::{self, divide_and_conquer_with};
 use super::draft::site_record;
 use super::{
-    EngineError, Options, path_tracing_with, raster_transform, raster_transform_of_domain,
+    Burning, EngineError, Options, RidgeOptions, brushfire, brushfire_of_domain, path_tracing_with,
+    raster_transform, raster_transform_of_domain, ridge_following, ridge_following_of_mask,
 };
 use crate::axis::{Accuracy, Engine, KeypointKind, MedialAxis, Path, Side};
 use crate::domain::{Complement, Domain, Site};
@@ -45,6 +46,10 @@ pub fn interior(
         Engine::PathTracing => path_tracing_with(domain, options),
         Engine::DivideAndConquer => divide_and_conquer_with(domain, options),
         Engine::RasterTransform => raster_transform_of_domain(domain, options),
+        Engine::RidgeFollowing => {
+            ridge_following(domain, &RidgeOptions::default(), options).map(|ridges| ridges.axis)
+        }
+        Engine::Brushfire => brushfire_of_domain(domain, Burning::default(), options),
     }
 }
 
@@ -59,11 +64,15 @@ pub fn of_mask(
 ) -> Result<MedialAxis, EngineError> {
     match engine {
         Engine::RasterTransform => raster_transform(mask, options),
+        Engine::RidgeFollowing => ridge_following_of_mask(mask, &RidgeOptions::default(), options)
+            .map(|ridges| ridges.axis),
+        Engine::Brushfire => brushfire(mask, Burning::default(), options),
         Engine::PathTracing | Engine::DivideAndConquer => Err(EngineError::NoMask { engine }),
     }
 }
 
-/// The exact medial axis of the exterior of a domain, by an exact engine, inside a frame.
+/// The medial axis of the exterior of a domain inside a frame: the exact one by an exact engine, or that of
+/// ridge following.
 ///
 /// The frame is the box of the domain grown on all sides by `margin`, in units of the input; by its
 /// own longer side if that is `None`.
@@ -93,6 +102,9 @@ pub fn exterior(
     margin: Option<f64>,
     options: &Options<'_>,
 ) -> Result<MedialAxis, EngineError> {
+    if engine == Engine::RidgeFollowing {
+        return ridges_outside(domain, margin, options);
+    }
     if !engine.is_exact() {
         return Err(EngineError::NoExterior { engine });
     }
@@ -115,6 +127,10 @@ pub fn both_sides(
     margin: Option<f64>,
     options: &Options<'_>,
 ) -> Result<[MedialAxis; 2], EngineError> {
+    if engine == Engine::RidgeFollowing {
+        let outer = ridges_outside(domain, margin, options)?;
+        return Ok([interior(domain, engine, options)?, outer]);
+    }
     if !engine.is_exact() {
         return Err(EngineError::NoExterior { engine });
     }
@@ -122,13 +138,22 @@ pub fn both_sides(
     let outside = complement(domain, &frame)?;
     let at_once = match engine {
         Engine::DivideAndConquer => divide_and_conquer::both_sides(domain, &outside, options)?,
-        Engine::PathTracing | Engine::RasterTransform => None,
+        _ => None,
     };
     let [inner, whole] = match at_once {
         Some(axes) => axes,
         None => [interior(domain, engine, options)?, interior(outside.domain(), engine, options)?],
     };
     Ok([inner, within(&frame, &outside, &whole)?])
+}
+
+fn ridges_outside(
+    domain: &Domain,
+    margin: Option<f64>,
+    options: &Options<'_>,
+) -> Result<MedialAxis, EngineError> {
+    let ridge = RidgeOptions { side: Side::Exterior, margin, ..RidgeOptions::default() };
+    ridge_following(domain, &ridge, options).map(|ridges| ridges.axis)
 }
 
 /// An error of ours, somewhere at a domain.

@@ -29,7 +29,7 @@ mod thinning;
 use super::sampled::{DomainBoundary, Label, OutlineBoundary, axis_of_cells, cell_radius};
 use super::watch::Watch;
 use super::{EngineError, Options};
-use crate::axis::{Engine, MedialAxis};
+use crate::axis::{Engine, MedialAxis, Side};
 use crate::domain::Domain;
 use crate::raster::{
     Bits, Cracks, DigitiseError, Features, Mask, PixelGraph, default_cell, digitise, disk_cells,
@@ -159,7 +159,8 @@ impl<'m> Skeleton<'m> {
 
     fn label(&self) -> Label {
         let cell = self.mask.grid().cell_size();
-        Label { engine: Engine::RasterTransform, complete: self.complete, cell }
+        let (engine, side) = (Engine::RasterTransform, Side::Interior);
+        Label { engine, side, complete: self.complete, cell }
     }
 }
 
