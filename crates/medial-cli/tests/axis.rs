@@ -181,7 +181,7 @@ fn wrong_usage_is_told_in_one_line() {
         (vec!["axis", "a.wkt", "--side", "outside"], "interior, exterior, both"),
         (vec!["axis", "a.wkt", "--frame", "2"], "--side exterior"),
         (vec!["axis", "a.wkt", "--side", "both", "--frame", "0"], "a positive number"),
-        (vec!["axis", "a.wkt", "--engine", "brushfire"], "no engine brushfire yet"),
+        (vec!["axis", "a.wkt", "--engine", "delaunay_dual"], "no engine delaunay_dual yet"),
         (vec!["axis", "a.wkt", "--tolerance", "-1"], "positive number"),
         (vec!["axis", "a.wkt", "--tolerance", "nan"], "positive number"),
         (vec!["axis", "a.wkt", "--to", "xyz"], "no known format"),

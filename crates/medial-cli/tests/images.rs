@@ -162,3 +162,30 @@ fn a_silhouette_has_few_branches() {
         ["axis", horse.to_str().unwrap(), "--invert", "--engine", "path_tracing", "--to", "csv"];
     assert!(medial(&exact).text().lines().count() > 1000);
 }
+
+#[test]
+fn all_engines_on_cells_take_images_and_polygons() {
+    let folder = tempfile::tempdir().unwrap();
+    let image = png(&folder, "plus.png", &PLUS);
+    let l = fixture("shapes/l_with_unit_arms.wkt");
+    for options in [
+        &["--engine", "ridge-following"][..],
+        &["--engine", "ridge-following", "--search", "sorted", "--thinning", "report"],
+        &["--engine", "brushfire"],
+        &["--engine", "brushfire", "--burning", "zhang-suen"],
+    ] {
+        for (file, cell) in [(&image, None), (&l, Some("0.02"))] {
+            let mut words = vec!["axis", file.to_str().unwrap(), "--to", "geojsonl"];
+            words.extend(options);
+            words.extend(cell.iter().flat_map(|&cell| ["--cell", cell]));
+            let run = medial(&words);
+            assert_eq!(run.status, Some(0), "{words:?}: {}", run.errors);
+            assert!(lines(run.text()).iter().all(|line| line["properties"]["curve"] == "polyline"));
+        }
+    }
+    let outside = ["axis", l.to_str().unwrap(), "--engine", "ridge-following", "--side", "both"];
+    assert_eq!(medial(&outside).status, Some(0));
+    let run = medial(&["axis", l.to_str().unwrap(), "--burning", "isotropic"]);
+    assert_eq!(run.status, Some(2));
+    assert!(run.errors.contains("--burning is for --engine brushfire"), "{}", run.errors);
+}

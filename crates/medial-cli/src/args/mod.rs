@@ -11,15 +11,16 @@ pub use walls::WallsArgs;
 use crate::failure::{Failure, Status};
 use clap::error::ErrorKind;
 use clap::{Args, Parser, Subcommand, ValueEnum};
-use medial::axis::{Engine, Side};
+use medial::axis::{Engine, Side, UnknownName};
 use medial::domain::{self, FillRule};
-use medial::engine;
+use medial::engine::{self, Burning, RidgeSearch, RidgeThinning};
 use medial::geom::Point;
 use medial::ops::{Hierarchy, Measure, Pruned};
 use medial_io::svg::Extra;
 use medial_io::{Feature, Format};
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
+use std::str::FromStr;
 use std::time::{Duration, Instant};
 
 /// Exact medial axes of polygons.
@@ -548,8 +549,8 @@ pub struct CompareArgs {
     /// people; by default that of the extension (.csv, .txt), else json
     #[arg(long, value_name = "FORM")]
     pub to: Option<Rows>,
-    /// Engines to compare, separated by commas: path_tracing, divide_and_conquer, raster_transform; by default
-    /// all that know the side
+    /// Engines to compare, separated by commas: path_tracing, divide_and_conquer, raster_transform,
+    /// ridge_following, brushfire; by default all that know the side
     #[arg(long, value_name = "NAMES", value_delimiter = ',', value_parser = engine)]
     pub engine: Vec<Engine>,
     /// The size of cells of engines that sample, in units of the input; by default a thousandth of the longer
@@ -687,17 +688,48 @@ pub enum Prune {
 /// Who computes an axis, for commands that know sampled ones.
 #[derive(Debug, Args)]
 pub struct ChosenEngine {
-    /// Who computes the axis: path_tracing, divide_and_conquer, raster_transform; by default path_tracing
-    /// for polygons, raster_transform for images
+    /// Who computes the axis: path_tracing, divide_and_conquer, raster_transform, ridge_following,
+    /// brushfire; by default path_tracing for polygons, raster_transform for images
     #[arg(long, value_name = "NAME", value_parser = engine)]
     pub engine: Option<Engine>,
     /// The size of cells into which polygons are put by engines that sample, in units of the input; by
     /// default a thousandth of the longer side of the feature's box
     #[arg(long, value_name = "SIZE", value_parser = positive, allow_negative_numbers = true)]
     pub cell: Option<f64>,
+    /// How ridge_following finds the two nearest elements: tree, sorted (as in the report), six_vertices (which
+    /// may miss one)
+    #[arg(long, value_name = "NAME", value_parser = named::<RidgeSearch>)]
+    pub search: Option<RidgeSearch>,
+    /// How ridge_following thins: queue (worst first), report, five_by_five, full (not at all)
+    #[arg(long, value_name = "NAME", value_parser = named::<RidgeThinning>)]
+    pub thinning: Option<RidgeThinning>,
+    /// How brushfire burns: sequential, alternating, marking, isotropic, zhang_suen, guo_hall, hilditch; by
+    /// default isotropic
+    #[arg(long, value_name = "NAME", value_parser = named::<Burning>)]
+    pub burning: Option<Burning>,
+}
+
+fn named<T: FromStr<Err = UnknownName>>(word: &str) -> Result<T, String> {
+    word.parse().map_err(|error: UnknownName| error.to_string())
 }
 
 impl ChosenEngine {
+    /// Fails if something is said to an engine that another one would listen to.
+    pub fn check(&self) -> Result<(), Failure> {
+        let others: [(&str, bool, Engine); 3] = [
+            ("--search", self.search.is_some(), Engine::RidgeFollowing),
+            ("--thinning", self.thinning.is_some(), Engine::RidgeFollowing),
+            ("--burning", self.burning.is_some(), Engine::Brushfire),
+        ];
+        let wrong = others.iter().find(|(_, said, engine)| *said && self.engine != Some(*engine));
+        match wrong {
+            Some((option, _, engine)) => {
+                Err(Failure::Usage(format!("{option} is for --engine {engine}")))
+            }
+            None => Ok(()),
+        }
+    }
+
     /// The engine for a feature.
     pub fn of(&self, feature: &Feature) -> Engine {
         engine_for(feature, self.engine)
@@ -933,7 +965,7 @@ fn one_line(text: &str) -> String {
 }
 
 fn engine(word: &str) -> Result<Engine, String> {
-    const LATER: [&str; 3] = ["delaunay_dual", "ridge_following", "brushfire"];
+    const LATER: [&str; 1] = ["delaunay_dual"];
     if LATER.contains(&word.replace('-', "_").as_str()) {
         return Err(format!("this build has no engine {word} yet; use path_tracing"));
     }

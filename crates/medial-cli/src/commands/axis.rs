@@ -8,7 +8,10 @@ use crate::report::Entry;
 use crate::timings::timed;
 use medial::axis::{Engine, Joining, MedialAxis, Side};
 use medial::domain::Domain;
-use medial::engine::{self, EngineError, both_sides, exterior, interior, of_mask};
+use medial::engine::{
+    self, EngineError, RidgeOptions, both_sides, brushfire, brushfire_of_domain, exterior,
+    interior, of_mask, ridge_following, ridge_following_of_mask,
+};
 use medial::ops::{Hierarchy, Significance};
 use medial::raster::default_cell;
 use medial_io::svg::Options;
@@ -33,6 +36,7 @@ pub fn run(args: &AxisArgs) -> Result<Status, Failure> {
 
 fn run_on(args: &AxisArgs, documents: Documents) -> Result<Status, Failure> {
     args.region.check()?;
+    args.engine.check()?;
     if let Some(nodes) = args.nodes.as_deref() {
         let others = [&args.output, &args.common.report, &args.common.timings];
         if nodes.as_os_str() == "-"
@@ -184,12 +188,47 @@ pub fn traced(
     };
     let residual = pruning.residual(cell);
     let options = engine::Options { cell: Some(cell), residual, ..*options };
-    match &feature.mask {
-        Some(mask) if chosen.cell.is_none() && region.side == Sides::Interior => {
-            let axis = of_mask(mask, engine, &options);
-            axis.map(|axis| vec![axis]).map_err(|error| Entry::unfinished(&error))
+    let sides = region.side.all().iter();
+    let axis = |&side| sampled(chosen, region, side, feature, domain, engine, &options);
+    sides.map(axis).collect::<Result<_, _>>().map_err(|error| Entry::unfinished(&error))
+}
+
+/// The axis on a side by an engine on cells.
+fn sampled(
+    chosen: &ChosenEngine,
+    region: &Region,
+    side: Side,
+    feature: &Feature,
+    domain: &Domain,
+    engine: Engine,
+    options: &engine::Options<'_>,
+) -> Result<MedialAxis, EngineError> {
+    // Other cells than those of the image are put on its outline.
+    let mask = feature.mask.as_deref();
+    let mask = mask.filter(|_| chosen.cell.is_none() && side == Side::Interior);
+    let burning = chosen.burning.unwrap_or_default();
+    match (engine, mask) {
+        (Engine::RidgeFollowing, mask) => {
+            let ridge = RidgeOptions {
+                search: chosen.search.unwrap_or_default(),
+                thinning: chosen.thinning.unwrap_or_default(),
+                side,
+                margin: region.frame,
+                curves: feature.curves.as_ref(),
+                ..RidgeOptions::default()
+            };
+            let ridges = match mask {
+                Some(mask) => ridge_following_of_mask(mask, &ridge, options),
+                None => ridge_following(domain, &ridge, options),
+            };
+            ridges.map(|ridges| ridges.axis)
         }
-        _ => trace(engine, region, domain, &options),
+        (Engine::Brushfire, Some(mask)) => brushfire(mask, burning, options),
+        (Engine::Brushfire, None) if side == Side::Interior => {
+            brushfire_of_domain(domain, burning, options)
+        }
+        (_, Some(mask)) => of_mask(mask, engine, options),
+        _ => on_side(side, region, domain, engine, options),
     }
 }
 

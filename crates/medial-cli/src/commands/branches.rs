@@ -60,6 +60,7 @@ const LIMB: (Measure, f64) = (Measure::RelativeExcess, 0.5);
 /// `medial branches`.
 pub fn run(args: &BranchesArgs) -> Result<Status, Failure> {
     args.region.check()?;
+    args.engine.check()?;
     if let Some(other) = &args.matching {
         return pairs(args, other);
     }

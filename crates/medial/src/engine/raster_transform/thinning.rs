@@ -1,6 +1,9 @@
 //! Thinning without changing components and holes: what is to be kept is given, the rest goes in the order of
 //! the distance, and what is thicker than one cell in the end loses its worst cells first.
 
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
+
 use super::medial_cells::MedialCell;
 use crate::raster::{Bits, SIMPLE, WINDOW_RING};
 
@@ -88,12 +91,6 @@ pub(super) fn thin_further(
     medial: &[MedialCell],
     squared: impl Fn(i32, i32) -> f64,
 ) {
-    // What cannot go may be able to once a neighbour is gone; it is asked again in the next round.
-    let mut round: Vec<u32> = Vec::new();
-    for y in 0..shape.rows() {
-        let may_go = |x: &u32| can_go(shape.window(*x as i32, y as i32));
-        round.extend(shape.ones(y).filter(may_go).map(|x| packed(x as i32, y as i32)));
-    }
     let residual = |cell: u32| {
         let place = |medial: &MedialCell| packed(medial.x as i32, medial.y as i32);
         medial.binary_search_by_key(&cell, place).map_or(0.0, |found| medial[found].residual)
@@ -103,26 +100,28 @@ pub(super) fn thin_further(
         // Neither is negative, so their bits are in their order.
         u64::from(residual(cell).to_bits()) << 32 | u64::from((squared(x, y) as f32).to_bits())
     };
-    while !round.is_empty() {
-        round.sort_by_cached_key(|&cell| (quality(cell), cell));
-        let mut again = Vec::new();
-        for cell in round {
-            let (x, y) = unpacked(cell);
-            let window = shape.window(x, y);
-            if !shape.get(x, y) || !can_go(window) {
-                continue;
-            }
-            shape.clear(x, y);
-            let left = NEIGHBOURS.into_iter().filter(|(bit, ..)| window & bit != 0);
-            again.extend(left.map(|(_, dx, dy)| packed(x + dx, y + dy)));
+    // What cannot go may be able to once a neighbour is gone.
+    let mut waiting = BinaryHeap::new();
+    for y in 0..shape.rows() {
+        let may_go = |x: &u32| can_go(shape.window(*x as i32, y as i32));
+        for x in shape.ones(y).filter(may_go) {
+            let cell = packed(x as i32, y as i32);
+            waiting.push(Reverse((quality(cell), cell)));
         }
-        again.retain(|&cell| {
-            let (x, y) = unpacked(cell);
-            shape.get(x, y) && can_go(shape.window(x, y))
-        });
-        again.sort_unstable();
-        again.dedup();
-        round = again;
+    }
+    while let Some(Reverse((_, cell))) = waiting.pop() {
+        let (x, y) = unpacked(cell);
+        let window = shape.window(x, y);
+        if !shape.get(x, y) || !can_go(window) {
+            continue;
+        }
+        shape.clear(x, y);
+        for (_, dx, dy) in NEIGHBOURS.into_iter().filter(|(bit, ..)| window & bit != 0) {
+            if can_go(shape.window(x + dx, y + dy)) {
+                let cell = packed(x + dx, y + dy);
+                waiting.push(Reverse((quality(cell), cell)));
+            }
+        }
     }
 }
 
