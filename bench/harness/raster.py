@@ -10,7 +10,7 @@ PEERS = ["scikit-image==0.26.0", "opencv-contrib-python-headless==5.0.0.93", "sh
          "imageio==2.38.1"]
 
 # Seconds of processor time for one run.
-LIMIT = 240
+LIMIT = 120
 
 # Sides of the squares that are timed, in pixels.
 SIDES = [512, 1024, 2048, 4096]

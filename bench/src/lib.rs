@@ -2,5 +2,6 @@
 
 pub mod bitmap;
 pub mod measure;
+pub mod ridge;
 pub mod shapes;
 pub mod text;

@@ -10,7 +10,8 @@
 //! instructions in `medial_bench_domain` and `medial_bench_engine`; `medial-bench work SHAPE EDGES`
 //! prints the numbers of edges and rings, and what the merges of `divide_and_conquer` did: pieces,
 //! arcs, starts; `medial-bench raster FILE.pbm` times the raster transform of a bitmap,
-//! and `medial-bench skeleton FILE.pbm TARGET.pbm [none]` writes its medial cells.
+//! and `medial-bench skeleton FILE.pbm TARGET.pbm [none]` writes its medial cells;
+//! `medial-bench ridge` runs the experiments of the report on ridge following, as `ridge` describes.
 
 use std::{env, hint};
 
@@ -18,7 +19,8 @@ use cpu_time::ThreadTime;
 use medial::axis::{Engine, MedialAxis};
 use medial::domain::{Domain, DomainError, Options};
 use medial::engine::{
-    self, EngineError, Skeleton, both_sides, divide_and_conquer_counted, exterior, interior,
+    self, EngineError, RidgeSearch, Skeleton, both_sides, divide_and_conquer_counted, exterior,
+    interior,
 };
 use medial::geom::Point;
 use medial::ops::{
@@ -27,7 +29,7 @@ use medial::ops::{
 };
 use medial::raster::Grid;
 use medial_bench::measure::{Error, Work, peak_bytes, report};
-use medial_bench::{bitmap, shapes, text};
+use medial_bench::{bitmap, ridge, shapes, text};
 
 fn main() -> Result<(), Error> {
     let args: Vec<String> = env::args().skip(1).collect();
@@ -41,10 +43,11 @@ fn main() -> Result<(), Error> {
         ["axis", shape, edges] => axis(shape, edges.parse()?),
         ["work", shape, edges] => work(shape, edges.parse()?),
         ["raster", file] => raster(file),
+        ["ridge"] => ridges(),
         ["skeleton", file, target] => skeleton(file, target, engine::Options::default().residual),
         ["skeleton", file, target, "none"] => skeleton(file, target, None),
         _ => {
-            Err("medial-bench draw, axis or work SHAPE EDGES, time [ENGINE], both ENGINE, operation NAME or offsets D,D, raster FILE.pbm or skeleton FILE.pbm TARGET.pbm [none]".into())
+            Err("medial-bench draw, axis or work SHAPE EDGES, time [ENGINE], both ENGINE, operation NAME or offsets D,D, ridge, raster FILE.pbm or skeleton FILE.pbm TARGET.pbm [none]".into())
         }
     }
 }
@@ -168,6 +171,18 @@ fn raster(file: &str) -> Result<(), Error> {
         "{{\"cells_ns\": {cells:.2}, \"axis_ns\": {axes:.2}, \"cells\": {n_cells}, \
          \"keypoints\": {n_keypoints}, \"bytes\": {grown:.1}}}"
     );
+    Ok(())
+}
+
+/// Runs the experiments of [VSC87, IV] with both searches.
+fn ridges() -> Result<(), Error> {
+    for (experiment, first, last) in ridge::EXPERIMENTS {
+        for value in first..=last {
+            for search in [RidgeSearch::Sorted, RidgeSearch::Tree] {
+                ridge::run(experiment, value, search)?;
+            }
+        }
+    }
     Ok(())
 }
 
