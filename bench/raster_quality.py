@@ -1,11 +1,12 @@
 """Measures how good medial cells are, with nothing of ours but the cells; prints JSON.
 
 usage: raster_quality.py MEDIAL-BENCH MEDIAL FOLDER IMAGE...
+       raster_quality.py masks FOLDER IMAGE...
 
 For each image: how many components and holes the cells have more or less than the shape, blocks of two by two
 cells from which one can be taken, the share of the shape in the union of disks of exact radius and the other way
 round, at the default and without pruning, the distance of the cells from the exact axis of the outline, and how
-far they move when the image is turned by 30 degrees.
+far they move when the image is turned by 30 degrees. The second form writes the shapes as bitmaps.
 """
 
 import json
@@ -89,6 +90,8 @@ def iou(a, b):
 
 
 def main():
+    if sys.argv[1] == "masks":
+        return masks(pathlib.Path(sys.argv[2]), sys.argv[3:])
     bench, medial, folder, *images = sys.argv[1:]
     folder = pathlib.Path(folder)
     source, target = folder / "shape.pbm", folder / "cells.pbm"
@@ -113,6 +116,14 @@ def main():
             found["centred"] = centred(medial, folder, mask, cells)
             found["drift"] = drift(mask, cells, cells_of)
         print(json.dumps(found), flush=True)
+
+
+def masks(folder, images):
+    """Writes the shapes of images as bitmaps, and prints where."""
+    for image in images:
+        target = folder / f"{pathlib.Path(image).stem}.pbm"
+        write(target, mask_of(image))
+        print(target)
 
 
 def centred(medial, folder, mask, cells):

@@ -85,6 +85,23 @@ def quality(programs, python, folder, data):
     yield row("**all**", everything)
 
 
+def inverses(programs, python, folder, data):
+    """Yields the lines of the table of inversion."""
+    yield ["engine", "silhouettes", "IoU mean", "IoU least", "medial cells of the shape"]
+    yield ["---"] + ["--:"] * 4
+    files = sorted((data / "images" / "mpeg7").glob("*.png"))
+    words = [python, BENCH / "raster_quality.py", "masks", folder, *files]
+    masks = run(list(map(str, words)), LIMIT)[0].splitlines()
+    found = {}
+    for line in run([str(programs["bench"]), "inverse", *masks], 3600)[0].splitlines():
+        name, share, cells = line.split("\t")
+        found.setdefault(name, []).append((float(share), float(cells)))
+    for name, of in found.items():
+        shares, cells = zip(*of)
+        yield [name, str(len(of)), f"{sum(shares) / len(of):.4f}", f"{min(shares):.4f}",
+               f"{sum(cells) / len(of):.1%}"]
+
+
 def row(kind, found):
     """What was found for some images."""
     mean = lambda key: [f[key] for f in found if f.get(key) is not None]

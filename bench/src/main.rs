@@ -11,7 +11,8 @@
 //! prints the numbers of edges and rings, and what the merges of `divide_and_conquer` did: pieces,
 //! arcs, starts; `medial-bench raster FILE.pbm` times the raster transform of a bitmap,
 //! and `medial-bench skeleton FILE.pbm TARGET.pbm [none]` writes its medial cells;
-//! `medial-bench ridge` runs the experiments of the report on ridge following, as `ridge` describes.
+//! `medial-bench ridge` runs the experiments of the report on ridge following, as `ridge` describes,
+//! and `medial-bench inverse FILE.pbm...` tells how well disks give bitmaps back.
 
 use std::{env, hint};
 
@@ -19,15 +20,15 @@ use cpu_time::ThreadTime;
 use medial::axis::{Engine, MedialAxis};
 use medial::domain::{Domain, DomainError, Options};
 use medial::engine::{
-    self, EngineError, RidgeSearch, Skeleton, both_sides, divide_and_conquer_counted, exterior,
-    interior,
+    self, Burning, EngineError, RidgeOptions, RidgeSearch, Skeleton, both_sides, brushfire,
+    divide_and_conquer_counted, exterior, interior, raster_transform, ridge_following_of_mask,
 };
 use medial::geom::Point;
 use medial::ops::{
     CenterlineOptions, Hierarchy, Measure, Outline, OutlinePiece, branches, centerlines,
     offset_margin, offsets, polygons_of, smoothed,
 };
-use medial::raster::Grid;
+use medial::raster::{Grid, mask_of_disks};
 use medial_bench::measure::{Error, Work, peak_bytes, report};
 use medial_bench::{bitmap, ridge, shapes, text};
 
@@ -44,10 +45,11 @@ fn main() -> Result<(), Error> {
         ["work", shape, edges] => work(shape, edges.parse()?),
         ["raster", file] => raster(file),
         ["ridge"] => ridges(),
+        ["inverse", files @ ..] => inverses(files),
         ["skeleton", file, target] => skeleton(file, target, engine::Options::default().residual),
         ["skeleton", file, target, "none"] => skeleton(file, target, None),
         _ => {
-            Err("medial-bench draw, axis or work SHAPE EDGES, time [ENGINE], both ENGINE, operation NAME or offsets D,D, ridge, raster FILE.pbm or skeleton FILE.pbm TARGET.pbm [none]".into())
+            Err("medial-bench draw, axis or work SHAPE EDGES, time [ENGINE], both ENGINE, operation NAME or offsets D,D, ridge, inverse FILE.pbm..., raster FILE.pbm or skeleton FILE.pbm TARGET.pbm [none]".into())
         }
     }
 }
@@ -171,6 +173,40 @@ fn raster(file: &str) -> Result<(), Error> {
         "{{\"cells_ns\": {cells:.2}, \"axis_ns\": {axes:.2}, \"cells\": {n_cells}, \
          \"keypoints\": {n_keypoints}, \"bytes\": {grown:.1}}}"
     );
+    Ok(())
+}
+
+/// Prints, for each bitmap a line and for each way to its medial cells, the share of the cells that the disks have
+/// in common with the mask, and that of medial cells in the mask: what is lost on the way back.
+fn inverses(files: &[&str]) -> Result<(), Error> {
+    let options = engine::Options::default();
+    let all = engine::Options { residual: None, ..options };
+    for file in files {
+        let mask = bitmap::read(file)?;
+        let mut axes = vec![
+            ("raster_transform, all".to_owned(), raster_transform(&mask, &all)?),
+            ("raster_transform".to_owned(), raster_transform(&mask, &options)?),
+            (
+                "ridge_following".to_owned(),
+                ridge_following_of_mask(&mask, &RidgeOptions::default(), &options)?.axis,
+            ),
+        ];
+        for &burning in Burning::ALL {
+            axes.push((format!("brushfire, {burning}"), brushfire(&mask, burning, &options)?));
+        }
+        for (name, axis) in axes {
+            let back = mask_of_disks(&axis, mask.grid())?;
+            let rows = 0..mask.grid().rows;
+            let count = |of: &dyn Fn(u8, u8) -> u8| -> f64 {
+                let row =
+                    |y| mask.row(y).iter().zip(back.row(y)).map(|(&a, &b)| of(a, b).count_ones());
+                rows.clone().flat_map(row).map(f64::from).sum()
+            };
+            let share = count(&|a, b| a & b) / count(&|a, b| a | b).max(1.0);
+            let cells = axis.keypoints().len() as f64 / (mask.count() as f64).max(1.0);
+            println!("{name}\t{share}\t{cells}");
+        }
+    }
     Ok(())
 }
 
