@@ -185,6 +185,8 @@ fn all_engines_on_cells_take_images_and_polygons() {
     }
     let outside = ["axis", l.to_str().unwrap(), "--engine", "ridge-following", "--side", "both"];
     assert_eq!(medial(&outside).status, Some(0));
+    let run = medial(&["axis", l.to_str().unwrap(), "-o", "l.tiff"]);
+    assert_eq!(run.status, Some(2), "{}", run.errors);
     let run = medial(&["axis", l.to_str().unwrap(), "--burning", "isotropic"]);
     assert_eq!(run.status, Some(2));
     assert!(run.errors.contains("--burning is for --engine brushfire"), "{}", run.errors);

@@ -287,8 +287,8 @@ fn output_format(args: &AxisArgs) -> Result<Format, Failure> {
     if format == Format::Rings {
         return usage("rings hold polygons, no axes; see --to in --help".to_owned());
     }
-    if format == Format::Ttf {
-        return usage("ttf is read only; see --to in --help".to_owned());
+    if matches!(format, Format::Ttf | Format::Tiff) {
+        return usage(format!("{format} is read only; see --to in --help"));
     }
     if format == Format::Maxis {
         return usage("maxis is written by `medial compress`; see its --help".to_owned());

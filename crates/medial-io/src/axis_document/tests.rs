@@ -121,3 +121,38 @@ fn broken_lines_name_themselves() {
     let said = read[1].as_ref().unwrap_err().to_string();
     assert!(said.starts_with("line 3, column 24: "), "{said}");
 }
+
+#[test]
+fn samples_are_points_of_their_paths_and_come_back() {
+    use medial::engine::{Options, raster_transform};
+    use medial::raster::{Grid, Mask};
+    let schema: Value = serde_json::from_str(SCHEMA).unwrap();
+    let validator = jsonschema::validator_for(&schema).unwrap();
+    let grid = Grid { origin: Point::new(7.0, 3.0), cell: [0.5, -0.5], columns: 40, rows: 30 };
+    // A ring with a tail: a closed line and one with an end.
+    let is_inside = |x: u32, y: u32| {
+        let (dx, dy) = (x as i32 - 15, y as i32 - 15);
+        (30..=130).contains(&(dx * dx + dy * dy)) || (dy.abs() < 2 && x > 18)
+    };
+    let mask = Mask::new(grid, is_inside).unwrap();
+    for residual in [Some(2.0), None] {
+        let options = Options { residual, ..Options::default() };
+        let axis = raster_transform(&mask, &options).unwrap();
+        let text = write(&source(), &axis, &[]);
+        let value: Value = serde_json::from_str(&text).unwrap();
+        let errors: Vec<_> = validator.iter_errors(&value).map(|error| error.to_string()).collect();
+        assert_eq!(errors, [""; 0]);
+        let read = read_one(&text).unwrap().axis;
+        assert_eq!(read.accuracy, Accuracy::Sampled(0.5));
+        let counts = |axis: &MedialAxis| (axis.keypoints().len(), axis.paths().len());
+        assert_eq!(counts(&read), counts(&axis));
+        let disks = |axis: &MedialAxis| {
+            let disk = |k: medial::axis::Keypoint| [k.position.x, k.position.y, k.radius];
+            let mut all: Vec<[f64; 3]> = axis.keypoints().iter().map(disk).collect();
+            all.sort_by(|a, b| a.partial_cmp(b).unwrap());
+            all
+        };
+        assert_eq!(disks(&read), disks(&axis));
+        assert_eq!(write(&source(), &read, &[]), text, "what was read is written as it was");
+    }
+}
