@@ -253,3 +253,20 @@ fn limits_end_it() {
         assert_eq!(brushfire(&mask, burning, &cancelled).unwrap_err(), EngineError::Cancelled);
     }
 }
+
+#[test]
+fn bars_of_any_height_keep_their_middle() {
+    for rows in [9, 10] {
+        for turned in [false, true] {
+            let (columns, rows) = if turned { (rows, 60) } else { (60, rows) };
+            let mask = Mask::new(Grid::of_image(columns, rows), |_, _| true).unwrap();
+            // In row order, a stroke two cells wide burns away from the end that comes first.
+            let others = Burning::ALL.iter().filter(|burning| **burning != Burning::Sequential);
+            for &burning in others {
+                let axis = brushfire(&mask, burning, &Options::default()).unwrap();
+                let length: f64 = axis.paths().iter().map(|path| axis.curve(&path).length()).sum();
+                assert!(length > 45.0, "{burning}, {columns} by {rows}: {length}");
+            }
+        }
+    }
+}

@@ -236,6 +236,33 @@ const fn is_simple(window: u16) -> bool {
     changes == 1 && sides < 4
 }
 
+/// Whether the cell in the middle of a window is neither an end nor needed.
+///
+/// An end has one neighbour, or two that are beside each other.
+pub(crate) fn can_go(window: u16) -> bool {
+    if !SIMPLE[window as usize] {
+        return false;
+    }
+    let ring = window & WINDOW_RING;
+    match ring.count_ones() {
+        0 | 1 => false,
+        2 => !ENDS.contains(&ring),
+        _ => true,
+    }
+}
+
+/// Pairs of neighbours beside each other.
+const ENDS: [u16; 8] = [
+    1 << 0 | 1 << 1,
+    1 << 1 | 1 << 2,
+    1 << 2 | 1 << 5,
+    1 << 5 | 1 << 8,
+    1 << 8 | 1 << 7,
+    1 << 7 | 1 << 6,
+    1 << 6 | 1 << 3,
+    1 << 3 | 1 << 0,
+];
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -15,7 +15,7 @@ mod outline;
 mod pixel_graph;
 mod topology;
 
-pub(crate) use bits::{Bits, SIMPLE, WINDOW_RING};
+pub(crate) use bits::{Bits, SIMPLE, WINDOW_RING, can_go};
 pub use digitise::{
     DigitiseError, boundary_cells, default_cell, digitise, grid_around, line_cells,
 };

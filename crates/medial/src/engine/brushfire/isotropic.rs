@@ -20,6 +20,7 @@ pub(super) fn pass(fire: &mut Fire<'_>) -> Result<(), EngineError> {
                 !may_go(cells, x + dx, y + dy) || can_both_go(cells, [x, y], dx, dy)
             })
             && !is_a_component_within_four(cells, x, y)
+            && !ends_a_stroke_of_two(cells, x, y)
     })
 }
 
@@ -36,6 +37,24 @@ fn may_go(cells: &Bits, x: i32, y: i32) -> bool {
 fn can_both_go(cells: &Bits, [x, y]: [i32; 2], dx: i32, dy: i32) -> bool {
     let without = 1 << (4 - dx - 3 * dy);
     SIMPLE[(cells.window(x + dx, y + dy) & !without) as usize]
+}
+
+/// Whether a cell is one of the two at the end of a stroke two cells wide: it and its three neighbours are a
+/// block, and across the stroke nothing follows. Without this, such strokes burn away from their ends.
+fn ends_a_stroke_of_two(cells: &Bits, x: i32, y: i32) -> bool {
+    let ring = cells.window(x, y) & WINDOW_RING;
+    let is_set = |u: i32, v: i32| is_within(cells, u, v) && cells.get(u, v);
+    let turns = [(1, 1), (1, -1), (-1, 1), (-1, -1)];
+    ring.count_ones() == 3
+        && turns.into_iter().any(|(dx, dy)| {
+            let block = [(x + dx, y), (x, y + dy), (x + dx, y + dy)];
+            let is_block = block.into_iter().all(|(u, v)| is_set(u, v));
+            let along_row =
+                (x - 1..=x + 1).all(|u| !is_set(u, y + 2 * dy)) && !is_set(x - dx, y + dy);
+            let along_column =
+                (y - 1..=y + 1).all(|v| !is_set(x + 2 * dx, v)) && !is_set(x + dx, y - dy);
+            is_block && (along_row || along_column)
+        })
 }
 
 /// Whether all that a cell is connected with lies within two by two cells.

@@ -15,7 +15,8 @@
 //! 4. [`Burning::Isotropic`]: all sides at once, looking ahead two cells farther.
 //!
 //! And by name [`Burning::ZhangSuen`], [`Burning::GuoHall`] and [`Burning::Hilditch`]. The third and fourth way
-//! leave strokes two cells wide, which the report calls their drawback; what is left then burns as in the first.
+//! leave strokes two cells wide, which the report calls their drawback; what is left then burns as in the first,
+//! but for the two cells at the end of a stroke, of which one stays.
 //!
 //! A pass looks only at cells near those that burnt in the last one: time is linear in cells, not cells times
 //! passes as the report has it.
@@ -23,6 +24,8 @@
 //! # Departures
 //! - The first way, taken literally, would eat through the shape in one pass, as what is behind a cell becomes
 //!   border when it goes; only cells that were border before are looked at.
+//! - The first way knows an end by its one neighbour, as published; where rows lead along a stroke that has become
+//!   two cells wide, it burns the stroke away from that end. The others do not.
 //! - In the third way marked cells are checked once more when they go: two of them may hold on to the same kept
 //!   cell, and one must stay. Arcelli and Sanniti di Baja [AS78] have rules for these cases that differ from paper to paper.
 //! - The fourth way needs no four processors: it is computed as if there were.
@@ -208,11 +211,11 @@ fn burn(fire: &mut Fire<'_>, burning: Burning) -> Result<(), EngineError> {
         }),
         Burning::Marking => {
             fire.burn(marking::REACH, marking::pass)?;
-            fire.burn(1, sequential::pass)
+            fire.burn(1, sequential::finish)
         }
         Burning::Isotropic => {
             fire.burn(isotropic::REACH, isotropic::pass)?;
-            fire.burn(1, sequential::pass)
+            fire.burn(1, sequential::finish)
         }
         Burning::ZhangSuen => fire.burn(1, |fire| in_halves(fire, rules::zhang_suen)),
         Burning::GuoHall => fire.burn(1, |fire| in_halves(fire, rules::guo_hall)),

@@ -5,7 +5,7 @@ use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
 use super::medial_cells::MedialCell;
-use crate::raster::{Bits, SIMPLE, WINDOW_RING};
+use crate::raster::{Bits, SIMPLE, WINDOW_RING, can_go};
 
 /// Steps of the distance within which cells go in the order in which they became removable.
 const STEPS_PER_CELL: f32 = 4.0;
@@ -124,30 +124,3 @@ pub(super) fn thin_further(
         }
     }
 }
-
-/// Whether the cell in the middle of a window is neither an end nor needed.
-///
-/// An end has one neighbour, or two that are beside each other.
-fn can_go(window: u16) -> bool {
-    if !SIMPLE[window as usize] {
-        return false;
-    }
-    let ring = window & WINDOW_RING;
-    match ring.count_ones() {
-        0 | 1 => false,
-        2 => !ENDS.contains(&ring),
-        _ => true,
-    }
-}
-
-/// Pairs of neighbours beside each other.
-const ENDS: [u16; 8] = [
-    1 << 0 | 1 << 1,
-    1 << 1 | 1 << 2,
-    1 << 2 | 1 << 5,
-    1 << 5 | 1 << 8,
-    1 << 8 | 1 << 7,
-    1 << 7 | 1 << 6,
-    1 << 6 | 1 << 3,
-    1 << 3 | 1 << 0,
-];
