@@ -1065,6 +1065,6 @@ mod tests {
     #[test]
     fn engines_take_hyphens() {
         assert_eq!(engine("path-tracing"), Ok(Engine::PathTracing));
-        assert!(engine("brushfire").unwrap_err().contains("use path_tracing"));
+        assert!(engine("delaunay_dual").unwrap_err().contains("use path_tracing"));
     }
 }
