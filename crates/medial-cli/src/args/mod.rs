@@ -1,23 +1,32 @@
+mod axis;
 mod carve;
+mod centerline;
 mod clearance;
+mod engine;
 mod offset;
+mod pruning;
 mod walls;
 
+pub use axis::{AxisArgs, Line};
 pub use carve::{CarveArgs, Units};
+pub use centerline::{CenterlineArgs, Extend, Purpose};
 pub use clearance::ClearanceArgs;
+pub use engine::{ChosenEngine, engine_for};
 pub use offset::OffsetArgs;
+pub use pruning::Pruning;
 pub use walls::WallsArgs;
 
 use crate::failure::{Failure, Status};
+use axis::PRUNE_HELP;
 use clap::error::ErrorKind;
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use engine::engine;
 use medial::axis::{Engine, Side, UnknownName};
 use medial::domain::{self, FillRule};
-use medial::engine::{self, Burning, RidgeSearch, RidgeThinning};
 use medial::geom::Point;
-use medial::ops::{Hierarchy, Measure, Pruned};
+use medial::ops::Measure;
+use medial_io::Format;
 use medial_io::svg::Extra;
-use medial_io::{Feature, Format};
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 use std::str::FromStr;
@@ -72,98 +81,6 @@ pub enum Command {
     Compare(CompareArgs),
     /// Write polygons as few disks of their axes, within an error, or without any
     Compress(CompressArgs),
-}
-
-const AXIS_HELP: &str = "\
-Examples:
-  medial axis fixtures/river.geojson -o river.svg
-  medial axis fixtures/river.geojson -o river.png --draw disks
-  medial axis fixtures/river.geojson -o river.axis.json
-  medial axis fixtures/river.geojson -o river.csv --report report.json --timings timings.json
-  medial axis fixtures/river.geojson -o edges.csv --nodes nodes.csv
-  medial axis fixtures/shapes/plus_of_unit_squares.wkt --keypoints --z radius -o plus.geojson
-  medial axis - --to wkt < fixtures/shapes/l_with_unit_arms.wkt
-  medial axis fixtures/shapes/l_with_unit_arms.wkt --side both --frame 2 -o l.svg
-
-Exit status: 0 all done; 1 no usable result; 2 wrong usage; 3 some features were left out.";
-
-const PRUNE_HELP: &str = "\
-Points of the axis below a value of a measure are removed, from the leaves inwards, so components and
-cycles stay; paths are cut where the value is reached. Measures, in units of the input but for those of the
-last two:
-  excess        how far the boundary moves if a disk takes the place of what is removed
-  potential, chord, circularity
-                boundary that is cut off; less its chord; less the arc of the disk that faces it
-  erosion, length
-                burn time less radius; the longest way to a leaf
-  half_chord, radius
-                half the distance of the footpoints, the radius: both may keep more than lies above
-  relative_excess, prominence, angle
-                excess as a share of the radius; the least of that from there to the root, by which limbs
-                go as a whole; the angle between footpoints in radians (may keep more)
-  scale         by how much all disks have to grow until a larger one holds this one (may keep more)
-
-Examples:
-  medial prune fixtures/river.geojson --max-error 2 -o river.svg
-  medial prune fixtures/river.geojson --prune relative_excess=0.1 -o river.geojson
-  medial prune fixtures/river.geojson --prune erosion=1.5 --to json > river.axis.json
-
-Exit status: 0 all done; 1 no usable result; 2 wrong usage; 3 some features were left out.";
-
-/// Arguments of `medial axis` and `medial prune`.
-#[derive(Debug, Args)]
-#[command(after_help = AXIS_HELP)]
-pub struct AxisArgs {
-    /// Polygons in any format that --from knows; `-` for standard input
-    pub input: PathBuf,
-    /// File to write; by default, and for `-`, standard output
-    #[arg(short, long, value_name = "FILE")]
-    pub output: Option<PathBuf>,
-    /// Format of the output: geojson, geojsonl, json (axis document), wkt, wkb, csv, gpkg, shp, fgb,
-    /// parquet, svg, png, dxf; by default that of the extension, on standard output geojson
-    #[arg(long, value_name = "FORMAT")]
-    pub to: Option<Format>,
-    #[command(flatten)]
-    pub engine: ChosenEngine,
-    #[command(flatten)]
-    pub region: Region,
-    #[command(flatten)]
-    pub pruning: Pruning,
-    /// Write these measures of significance for every path, separated by commas: the largest value and
-    /// those at both ends (geojson, geojsonl, csv, json); see `medial prune --help`
-    #[arg(long, value_name = "MEASURE", value_delimiter = ',', value_parser = measure)]
-    pub measures: Vec<Measure>,
-    /// Largest distance between a curve and the polyline drawn for it, in units of the input; by
-    /// default 1e-4 of the longer side of the feature's box
-    #[arg(long, value_name = "T", value_parser = positive, allow_negative_numbers = true)]
-    pub tolerance: Option<f64>,
-    /// What makes one line (all formats but json and pictures): a path between keypoints, or a branch between
-    /// ends and junctions; by default paths, branches on an axis from samples
-    #[arg(long, value_name = "WHAT")]
-    pub by: Option<Line>,
-    /// Write keypoints too (geojson, geojsonl, wkt, wkb, dxf; pictures and axis documents have them)
-    #[arg(long)]
-    pub keypoints: bool,
-    /// Write the radius as third coordinate (geojson, geojsonl, wkt, wkb, csv, dxf)
-    #[arg(long, value_name = "VALUE")]
-    pub z: Option<Height>,
-    /// Write the keypoints to this file besides, as a CSV table of nodes; with --to csv the paths are its
-    /// edges, by the columns `from` and `to`
-    #[arg(long, value_name = "FILE")]
-    pub nodes: Option<PathBuf>,
-    /// What a picture shows besides, separated by commas: disks, footpoints, cells, zones,
-    /// governors
-    #[arg(long, value_name = "WHAT", value_delimiter = ',', value_parser = extra)]
-    pub draw: Vec<Extra>,
-    #[command(flatten)]
-    pub common: Common,
-}
-
-/// What makes one line of an axis.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum Line {
-    Path,
-    Branch,
 }
 
 /// Where results go.
@@ -329,104 +246,6 @@ impl Method {
             Self::Disks => "disks",
         }
     }
-}
-
-const CENTERLINE_HELP: &str = "\
-The longest line runs through the axis between the two ends that are farthest apart, by the shortest way
-between them; corners blunter than some 84 degrees are no ends. Around holes it takes the shorter side; a
-ring without ends has one closed line. A line for a label stays where a text of --height fits, and loses
-that height in length for each radian by which it turns. Further lines (--count) use no part of those
-before. A line between points runs between the points of the axis nearest to them.
-
-A smoothed or simplified line is nowhere farther than the tolerance from the exact one, nor the exact one
-from it, and stays inside; of both the tolerances add up. Widths are those at its own points.
-
-Examples:
-  medial centerline fixtures/river.geojson -o river.line.geojson
-  medial centerline fixtures/river.geojson --count 3 --extend boundary --tolerance 0.1
-  medial centerline fixtures/river.geojson --smooth 0.2 --simplify 0.01 -o river.svg
-  medial centerline fixtures/shapes/plus_of_unit_squares.wkt --max-error 0.2 --z radius --to wkt
-  medial centerline fixtures/shapes/l_with_unit_arms.wkt --for label --height 0.5 --to csv
-  medial centerline fixtures/shapes/l_with_unit_arms.wkt --between 0.5,3,3,0.5 --extend anchors
-
-Exit status: 0 all done; 1 no usable result; 2 wrong usage; 3 some features were left out.";
-
-/// Arguments of `medial centerline`.
-#[derive(Debug, Args)]
-#[command(after_help = CENTERLINE_HELP)]
-pub struct CenterlineArgs {
-    /// Polygons in any format that --from knows; `-` for standard input
-    pub input: PathBuf,
-    /// File to write; by default, and for `-`, standard output
-    #[arg(short, long, value_name = "FILE")]
-    pub output: Option<PathBuf>,
-    /// Format of the output: geojson, geojsonl, wkt, csv, svg, dxf; by default that of the extension, on
-    /// standard output geojson
-    #[arg(long, value_name = "FORMAT")]
-    pub to: Option<Format>,
-    /// Who computes the axis: path_tracing, divide_and_conquer
-    #[arg(long, value_name = "NAME", default_value = "path_tracing", value_parser = engine)]
-    pub engine: Engine,
-    /// What the line is for: the longest one, or the best for a label, long, straight and wide
-    #[arg(long = "for", value_name = "WHAT", default_value = "longest")]
-    pub purpose: Purpose,
-    /// Height of the text of a label, in units of the input; by default half of the greatest width of
-    /// the feature
-    #[arg(long, value_name = "H", value_parser = positive, allow_negative_numbers = true)]
-    pub height: Option<f64>,
-    /// How many lines of each feature, at most
-    #[arg(long, value_name = "N", default_value = "1", value_parser = count)]
-    pub count: NonZeroUsize,
-    /// Two points between which the line runs
-    #[arg(long, value_name = "X1,Y1,X2,Y2", value_parser = two_points, allow_hyphen_values = true,
-          conflicts_with_all = ["anchor", "count", "purpose"])]
-    pub between: Option<[Point; 2]>,
-    /// A point to which the line runs, to be given several times: of more than two those farthest
-    /// apart along the axis
-    #[arg(long, value_name = "X,Y", value_parser = point, allow_hyphen_values = true,
-          conflicts_with_all = ["count", "purpose"])]
-    pub anchor: Vec<Point>,
-    /// How far lines go on straight beyond the axis; anchors: to the points of --between or --anchor
-    #[arg(long, value_name = "WHERE", default_value = "none")]
-    pub extend: Extend,
-    #[command(flatten)]
-    pub pruning: Pruning,
-    /// Largest distance between a curve and the polyline drawn for it, in units of the input; by
-    /// default 1e-4 of the longer side of the feature's box
-    #[arg(long, value_name = "T", value_parser = positive, allow_negative_numbers = true)]
-    pub tolerance: Option<f64>,
-    /// Write a smooth line no farther than this from the exact one, in units of the input
-    #[arg(long, value_name = "T", value_parser = positive, allow_negative_numbers = true)]
-    pub smooth: Option<f64>,
-    /// Write a line with few points, no farther than this from the exact, or the smooth, one, in units
-    /// of the input
-    #[arg(long, value_name = "T", value_parser = positive, allow_negative_numbers = true)]
-    pub simplify: Option<f64>,
-    /// Write the radius as third coordinate (geojson, geojsonl, wkt, csv, dxf)
-    #[arg(long, value_name = "VALUE")]
-    pub z: Option<Height>,
-    #[command(flatten)]
-    pub common: Common,
-}
-
-/// What a centerline is for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum Purpose {
-    /// The longest one.
-    Longest,
-    /// Long, straight, and wide enough for a text.
-    Label,
-}
-
-/// How far a centerline goes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum Extend {
-    /// Not beyond the axis.
-    None,
-    /// Up to the boundary.
-    Boundary,
-    /// To the points that are given.
-    Anchors,
 }
 
 const VORONOI_HELP: &str = "\
@@ -607,142 +426,6 @@ pub struct CompressArgs {
     pub flattening: Flattening,
     #[command(flatten)]
     pub common: Common,
-}
-
-/// What is removed from axes.
-#[derive(Debug, Args)]
-pub struct Pruning {
-    /// Remove what lies below this value of a measure, from the leaves inwards: excess,
-    /// relative_excess, prominence, potential, chord, circularity, erosion, length, angle,
-    /// half_chord, radius, scale
-    ///
-    /// Images are pruned by chord=2 cells if nothing else is said; `none` keeps what their disks need to be
-    /// the image again
-    #[arg(long, value_name = "MEASURE=VALUE", value_parser = prune, conflicts_with = "max_error")]
-    pub prune: Option<Prune>,
-    /// Remove branches for as long as the boundary moves by less than this, in units of the input:
-    /// short for --prune excess=V
-    #[arg(long, value_name = "V", value_parser = not_negative, allow_negative_numbers = true)]
-    pub max_error: Option<f64>,
-    /// Keep what the axis of flattened curves has that the axis of the curves has not
-    #[arg(long)]
-    pub keep_artefacts: bool,
-}
-
-impl Pruning {
-    /// Whether anything may go of what an engine found for a feature.
-    pub fn removes(&self, feature: &Feature, engine: Engine) -> bool {
-        let curves = feature.curves.is_some() && engine.is_exact() && !self.keep_artefacts;
-        self.left_to(engine).is_some() || curves
-    }
-
-    /// What is left of the axis of an engine, if anything may go.
-    pub fn rest(
-        &self,
-        feature: &Feature,
-        engine: Engine,
-        hierarchy: &Hierarchy<'_>,
-    ) -> Option<Pruned> {
-        match (&feature.curves, self.left_to(engine)) {
-            (Some(curves), threshold) if engine.is_exact() && !self.keep_artefacts => {
-                Some(hierarchy.without_artefacts(&feature.polygons, curves, threshold))
-            }
-            (_, threshold) => threshold.map(|(measure, value)| hierarchy.pruned(measure, value)),
-        }
-    }
-
-    /// The measure and the value below which points are removed, if any are.
-    pub fn threshold(&self) -> Option<(Measure, f64)> {
-        match self.prune {
-            Some(Prune::Below(measure, value)) => Some((measure, value)),
-            Some(Prune::Nothing) => None,
-            None => self.max_error.map(|error| (Measure::Excess, error)),
-        }
-    }
-
-    /// The same without what an engine sees to by itself.
-    fn left_to(&self, engine: Engine) -> Option<(Measure, f64)> {
-        self.threshold().filter(|&(measure, _)| engine.is_exact() || measure != Measure::Chord)
-    }
-
-    /// The chord residual, in cells of that size, that an engine on cells prunes by; the rest of pruning is
-    /// done by [`rest`](Self::rest).
-    pub fn residual(&self, cell: f64) -> Option<f64> {
-        match self.prune {
-            Some(Prune::Nothing) => None,
-            Some(Prune::Below(Measure::Chord, value)) => Some(value / cell),
-            _ => engine::Options::default().residual,
-        }
-    }
-}
-
-/// What `--prune` says.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Prune {
-    /// Remove nothing.
-    Nothing,
-    /// Remove what lies below a value of a measure.
-    Below(Measure, f64),
-}
-
-/// Who computes an axis, for commands that know sampled ones.
-#[derive(Debug, Args)]
-pub struct ChosenEngine {
-    /// Who computes the axis: path_tracing, divide_and_conquer, raster_transform, ridge_following,
-    /// brushfire; by default path_tracing for polygons, raster_transform for images
-    #[arg(long, value_name = "NAME", value_parser = engine)]
-    pub engine: Option<Engine>,
-    /// The size of cells into which polygons are put by engines that sample, in units of the input; by
-    /// default a thousandth of the longer side of the feature's box
-    #[arg(long, value_name = "SIZE", value_parser = positive, allow_negative_numbers = true)]
-    pub cell: Option<f64>,
-    /// How ridge_following finds the two nearest elements: tree, sorted (as in the report), six_vertices (which
-    /// may miss one)
-    #[arg(long, value_name = "NAME", value_parser = named::<RidgeSearch>)]
-    pub search: Option<RidgeSearch>,
-    /// How ridge_following thins: queue (worst first), report, five_by_five, full (not at all)
-    #[arg(long, value_name = "NAME", value_parser = named::<RidgeThinning>)]
-    pub thinning: Option<RidgeThinning>,
-    /// How brushfire burns: sequential, alternating, marking, isotropic, zhang_suen, guo_hall, hilditch; by
-    /// default isotropic
-    #[arg(long, value_name = "NAME", value_parser = named::<Burning>)]
-    pub burning: Option<Burning>,
-}
-
-fn named<T: FromStr<Err = UnknownName>>(word: &str) -> Result<T, String> {
-    word.parse().map_err(|error: UnknownName| error.to_string())
-}
-
-impl ChosenEngine {
-    /// Fails if something is said to an engine that another one would listen to.
-    pub fn check(&self) -> Result<(), Failure> {
-        let others: [(&str, bool, Engine); 3] = [
-            ("--search", self.search.is_some(), Engine::RidgeFollowing),
-            ("--thinning", self.thinning.is_some(), Engine::RidgeFollowing),
-            ("--burning", self.burning.is_some(), Engine::Brushfire),
-        ];
-        let wrong = others.iter().find(|(_, said, engine)| *said && self.engine != Some(*engine));
-        match wrong {
-            Some((option, _, engine)) => {
-                Err(Failure::Usage(format!("{option} is for --engine {engine}")))
-            }
-            None => Ok(()),
-        }
-    }
-
-    /// The engine for a feature.
-    pub fn of(&self, feature: &Feature) -> Engine {
-        engine_for(feature, self.engine)
-    }
-}
-
-/// The engine that was asked for, else the usual one for polygons or images.
-pub fn engine_for(feature: &Feature, asked: Option<Engine>) -> Engine {
-    let usual = match feature.mask {
-        Some(_) => Engine::RasterTransform,
-        None => Engine::PathTracing,
-    };
-    asked.unwrap_or(usual)
 }
 
 /// Where axes are computed.
@@ -964,12 +647,8 @@ fn one_line(text: &str) -> String {
     format!("{said}; see --help")
 }
 
-fn engine(word: &str) -> Result<Engine, String> {
-    const LATER: [&str; 1] = ["delaunay_dual"];
-    if LATER.contains(&word.replace('-', "_").as_str()) {
-        return Err(format!("this build has no engine {word} yet; use path_tracing"));
-    }
-    word.parse().map_err(|error: medial::axis::UnknownName| error.to_string())
+fn named<T: FromStr<Err = UnknownName>>(word: &str) -> Result<T, String> {
+    word.parse().map_err(|error: UnknownName| error.to_string())
 }
 
 fn extra(word: &str) -> Result<Extra, String> {
@@ -999,19 +678,7 @@ fn count(word: &str) -> Result<NonZeroUsize, String> {
 }
 
 fn measure(word: &str) -> Result<Measure, String> {
-    word.parse().map_err(|error: medial::axis::UnknownName| error.to_string())
-}
-
-fn prune(word: &str) -> Result<Prune, String> {
-    if word == "none" {
-        return Ok(Prune::Nothing);
-    }
-    threshold(word).map(|(measure, value)| Prune::Below(measure, value))
-}
-
-fn threshold(word: &str) -> Result<(Measure, f64), String> {
-    let (name, value) = word.split_once('=').ok_or("MEASURE=VALUE is needed, as excess=2.5")?;
-    Ok((measure(name)?, not_negative(value)?))
+    named(word)
 }
 
 fn point(word: &str) -> Result<Point, String> {

@@ -1,0 +1,70 @@
+use super::{named, positive};
+use crate::failure::Failure;
+use clap::Args;
+use medial::axis::Engine;
+use medial::engine::{Burning, RidgeSearch, RidgeThinning};
+use medial_io::Feature;
+
+/// Who computes an axis, for commands that know sampled ones.
+#[derive(Debug, Args)]
+pub struct ChosenEngine {
+    /// Who computes the axis: path_tracing, divide_and_conquer, raster_transform, ridge_following,
+    /// brushfire; by default path_tracing for polygons, raster_transform for images
+    #[arg(long, value_name = "NAME", value_parser = engine)]
+    pub engine: Option<Engine>,
+    /// The size of cells into which polygons are put by engines that sample, in units of the input; by
+    /// default a thousandth of the longer side of the feature's box
+    #[arg(long, value_name = "SIZE", value_parser = positive, allow_negative_numbers = true)]
+    pub cell: Option<f64>,
+    /// How ridge_following finds the two nearest elements: tree, sorted (as in the report), six_vertices (which
+    /// may miss one)
+    #[arg(long, value_name = "NAME", value_parser = named::<RidgeSearch>)]
+    pub search: Option<RidgeSearch>,
+    /// How ridge_following thins: queue (worst first), report, five_by_five, full (not at all)
+    #[arg(long, value_name = "NAME", value_parser = named::<RidgeThinning>)]
+    pub thinning: Option<RidgeThinning>,
+    /// How brushfire burns: sequential, alternating, marking, isotropic, zhang_suen, guo_hall, hilditch; by
+    /// default isotropic
+    #[arg(long, value_name = "NAME", value_parser = named::<Burning>)]
+    pub burning: Option<Burning>,
+}
+
+impl ChosenEngine {
+    /// Fails if something is said to an engine that another one would listen to.
+    pub fn check(&self) -> Result<(), Failure> {
+        let others: [(&str, bool, Engine); 3] = [
+            ("--search", self.search.is_some(), Engine::RidgeFollowing),
+            ("--thinning", self.thinning.is_some(), Engine::RidgeFollowing),
+            ("--burning", self.burning.is_some(), Engine::Brushfire),
+        ];
+        let wrong = others.iter().find(|(_, said, engine)| *said && self.engine != Some(*engine));
+        match wrong {
+            Some((option, _, engine)) => {
+                Err(Failure::Usage(format!("{option} is for --engine {engine}")))
+            }
+            None => Ok(()),
+        }
+    }
+
+    /// The engine for a feature.
+    pub fn of(&self, feature: &Feature) -> Engine {
+        engine_for(feature, self.engine)
+    }
+}
+
+/// The engine that was asked for, else the usual one for polygons or images.
+pub fn engine_for(feature: &Feature, asked: Option<Engine>) -> Engine {
+    let usual = match feature.mask {
+        Some(_) => Engine::RasterTransform,
+        None => Engine::PathTracing,
+    };
+    asked.unwrap_or(usual)
+}
+
+pub(super) fn engine(word: &str) -> Result<Engine, String> {
+    const LATER: [&str; 1] = ["delaunay_dual"];
+    if LATER.contains(&word.replace('-', "_").as_str()) {
+        return Err(format!("this build has no engine {word} yet; use path_tracing"));
+    }
+    named(word)
+}

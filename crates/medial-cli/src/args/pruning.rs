@@ -1,0 +1,94 @@
+use super::{measure, not_negative};
+use clap::Args;
+use medial::axis::Engine;
+use medial::engine;
+use medial::ops::{Hierarchy, Measure, Pruned};
+use medial_io::Feature;
+
+/// What is removed from axes.
+#[derive(Debug, Args)]
+pub struct Pruning {
+    /// Remove what lies below this value of a measure, from the leaves inwards: excess,
+    /// relative_excess, prominence, potential, chord, circularity, erosion, length, angle,
+    /// half_chord, radius, scale
+    ///
+    /// Images are pruned by chord=2 cells if nothing else is said; `none` keeps what their disks need to be
+    /// the image again
+    #[arg(long, value_name = "MEASURE=VALUE", value_parser = prune, conflicts_with = "max_error")]
+    pub prune: Option<Prune>,
+    /// Remove branches for as long as the boundary moves by less than this, in units of the input:
+    /// short for --prune excess=V
+    #[arg(long, value_name = "V", value_parser = not_negative, allow_negative_numbers = true)]
+    pub max_error: Option<f64>,
+    /// Keep what the axis of flattened curves has that the axis of the curves has not
+    #[arg(long)]
+    pub keep_artefacts: bool,
+}
+
+impl Pruning {
+    /// Whether anything may go of what an engine found for a feature.
+    pub fn removes(&self, feature: &Feature, engine: Engine) -> bool {
+        let curves = feature.curves.is_some() && engine.is_exact() && !self.keep_artefacts;
+        self.left_to(engine).is_some() || curves
+    }
+
+    /// What is left of the axis of an engine, if anything may go.
+    pub fn rest(
+        &self,
+        feature: &Feature,
+        engine: Engine,
+        hierarchy: &Hierarchy<'_>,
+    ) -> Option<Pruned> {
+        match (&feature.curves, self.left_to(engine)) {
+            (Some(curves), threshold) if engine.is_exact() && !self.keep_artefacts => {
+                Some(hierarchy.without_artefacts(&feature.polygons, curves, threshold))
+            }
+            (_, threshold) => threshold.map(|(measure, value)| hierarchy.pruned(measure, value)),
+        }
+    }
+
+    /// The measure and the value below which points are removed, if any are.
+    pub fn threshold(&self) -> Option<(Measure, f64)> {
+        match self.prune {
+            Some(Prune::Below(measure, value)) => Some((measure, value)),
+            Some(Prune::Nothing) => None,
+            None => self.max_error.map(|error| (Measure::Excess, error)),
+        }
+    }
+
+    /// The same without what an engine sees to by itself.
+    fn left_to(&self, engine: Engine) -> Option<(Measure, f64)> {
+        self.threshold().filter(|&(measure, _)| engine.is_exact() || measure != Measure::Chord)
+    }
+
+    /// The chord residual, in cells of that size, that an engine on cells prunes by; the rest of pruning is
+    /// done by [`rest`](Self::rest).
+    pub fn residual(&self, cell: f64) -> Option<f64> {
+        match self.prune {
+            Some(Prune::Nothing) => None,
+            Some(Prune::Below(Measure::Chord, value)) => Some(value / cell),
+            _ => engine::Options::default().residual,
+        }
+    }
+}
+
+/// What `--prune` says.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Prune {
+    /// Remove nothing.
+    Nothing,
+    /// Remove what lies below a value of a measure.
+    Below(Measure, f64),
+}
+
+fn prune(word: &str) -> Result<Prune, String> {
+    if word == "none" {
+        return Ok(Prune::Nothing);
+    }
+    threshold(word).map(|(measure, value)| Prune::Below(measure, value))
+}
+
+fn threshold(word: &str) -> Result<(Measure, f64), String> {
+    let (name, value) = word.split_once('=').ok_or("MEASURE=VALUE is needed, as excess=2.5")?;
+    Ok((measure(name)?, not_negative(value)?))
+}
