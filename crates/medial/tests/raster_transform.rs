@@ -145,7 +145,7 @@ fn threads_change_nothing() {
 fn sites_are_edges_of_the_outline_and_radii_their_distances() {
     for seed in 0..400 {
         let mask = random(seed);
-        let polygons = outline(&mask).polygons;
+        let polygons = outline(&mask);
         if polygons.is_empty() {
             continue;
         }

@@ -518,7 +518,7 @@ fn masks_are_followed_like_domains() {
         assert_eq!(found.n_edges, 6);
         let axis = of_mask(&mask, Engine::RidgeFollowing, &Options::default()).unwrap();
         assert_eq!(axis, found.axis);
-        let outline = shapes::of(&medial::raster::outline(&mask).polygons).unwrap();
+        let outline = shapes::of(&medial::raster::outline(&mask)).unwrap();
         let verdict = check::defects(&outline, &found.axis);
         assert!(verdict.defects.is_empty(), "{:?}", verdict.defects[0]);
         let exterior = RidgeOptions { side: Side::Exterior, ..RidgeOptions::default() };
@@ -542,7 +542,7 @@ fn stairs_of_a_mask_do_not_flood_it() {
     let share = found.n_found as f64 / mask.count() as f64;
     assert!(share < 0.12, "{share}");
     assert!(found.n_edges < 40, "{}", found.n_edges);
-    let outline = shapes::of(&medial::raster::outline(&mask).polygons).unwrap();
+    let outline = shapes::of(&medial::raster::outline(&mask)).unwrap();
     let verdict = check::defects(&outline, &found.axis);
     assert!(verdict.defects.is_empty(), "{:?}", verdict.defects[0]);
 }
@@ -565,7 +565,7 @@ fn random_masks_have_true_radii() {
         let found =
             ridge_following_of_mask(&mask, &RidgeOptions::default(), &Options::default()).unwrap();
         assert!(found.pixels.iter().all(|p| mask.get(p.column, p.row)));
-        let polygons = medial::raster::outline(&mask).polygons;
+        let polygons = medial::raster::outline(&mask);
         let Ok(outline) = shapes::of(&polygons) else { continue };
         assert_eq!(wrong_radius(&outline, &found.axis), None, "{seed}");
     }

@@ -144,7 +144,7 @@ pub fn read_mask(
 pub fn read<'a>(format: Format, bytes: &[u8], options: &ReadOptions) -> Result<Layer<'a>, Error> {
     let (mask, crs) = read_mask(format, bytes, options)?;
     let feature = Feature {
-        polygons: outline(&mask).polygons,
+        polygons: outline(&mask),
         geometry: "a mask".to_owned(),
         polygonal: true,
         mask: Some(Arc::new(mask)),

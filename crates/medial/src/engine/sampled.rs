@@ -7,15 +7,18 @@ use std::ops::ControlFlow;
 
 use smallvec::SmallVec;
 
-use super::EngineError;
 use super::draft::site_record;
+use super::{EngineError, Options};
 use crate::axis::{
     self, Accuracy, Engine, Keypoint, KeypointKind, KeypointTable, MedialAxis, Path, PathTable,
     Side, SiteTable,
 };
 use crate::domain::{Complement, Corner, Domain, EdgeTree, Site};
 use crate::geom::Point;
-use crate::raster::{Cracks, Features, Grid, Mask, PixelGraph, Side as CellSide};
+use crate::raster::{
+    Cracks, DigitiseError, Features, Grid, Mask, PixelGraph, Side as CellSide, default_cell,
+    digitise, grid_around,
+};
 
 /// The boundary as cells see it.
 pub(super) trait Boundary {
@@ -99,9 +102,64 @@ impl Boundary for OutlineBoundary<'_> {
     }
 }
 
+/// What an engine has left of the cells of a mask, with their distances.
+#[derive(Debug)]
+pub(super) struct Remains<'m> {
+    pub mask: &'m Mask,
+    pub features: Features,
+    pub cracks: Cracks,
+    pub cells: Mask,
+}
+
+impl Remains<'_> {
+    /// Columns and rows from a cell of the shape to the nearest one outside; `None` outside of the shape.
+    pub fn foot(&self, column: u32, row: u32) -> Option<(i32, i32)> {
+        let inside = self.mask.get(column, row);
+        inside.then(|| self.features.offset(column as i32, row as i32))
+    }
+
+    /// The radius at a cell of the shape; `None` outside of it.
+    pub fn radius(&self, column: u32, row: u32) -> Option<f64> {
+        self.foot(column, row).map(|(dx, dy)| cell_radius(self.mask.grid(), dx, dy))
+    }
+
+    /// How far each node of a graph is from the nearest cell outside, between centres, in widths of a cell.
+    pub fn distances(&self, graph: &PixelGraph) -> Vec<f64> {
+        let aspect = self.mask.grid().aspect();
+        let distance =
+            |&[x, y]: &[u32; 2]| self.features.squared(x as i32, y as i32, aspect).sqrt();
+        graph.cells.iter().map(distance).collect()
+    }
+
+    /// The axis of a graph of cells, with the edges of the mask's outline as sites.
+    pub fn axis(&self, graph: &PixelGraph, label: Label) -> Result<MedialAxis, EngineError> {
+        let Self { mask, features, cracks, .. } = self;
+        let boundary = OutlineBoundary { mask, features, cracks };
+        axis_of_cells(graph, mask.grid(), &boundary, label)
+    }
+
+    /// The same with the elements of the domain as sites that the mask was made of, and distances from them.
+    pub fn axis_of_domain(
+        &self,
+        domain: &Domain,
+        graph: &PixelGraph,
+        label: Label,
+    ) -> Result<MedialAxis, EngineError> {
+        let boundary = DomainBoundary::new(domain, self.mask.grid());
+        axis_of_cells(graph, self.mask.grid(), &boundary, label)
+    }
+}
+
+/// The cells of a domain, of the size that the options say: those whose centres lie in it.
+pub(super) fn cells_of(domain: &Domain, options: &Options<'_>) -> Result<Mask, EngineError> {
+    let cell = options.cell.unwrap_or_else(|| default_cell(domain));
+    let grid = grid_around(domain, cell, 1)?;
+    Ok(digitise(domain, &grid).map_err(DigitiseError::from)?)
+}
+
 /// The radius at a cell, so many columns and rows from the nearest cell outside: the distance between both
 /// centres less half a cell.
-pub(super) fn cell_radius(grid: &Grid, dx: i32, dy: i32) -> f64 {
+fn cell_radius(grid: &Grid, dx: i32, dy: i32) -> f64 {
     let [width, height] = grid.cell.map(f64::abs);
     if width == height {
         return (f64::from(dx * dx + dy * dy).sqrt() - 0.5) * width;

@@ -213,8 +213,14 @@ const fn simple_table() -> [bool; 512] {
 }
 
 const fn is_simple(window: u16) -> bool {
-    // Sides stand at even places of the ring. A corner whose two sides are set adds nothing, so with it
-    // filled in, each change from set to unset is one connected set of neighbours.
+    let ring = filled_ring(window);
+    let sides = ring[0] as u32 + ring[2] as u32 + ring[4] as u32 + ring[6] as u32;
+    n_runs(&ring) == 1 && sides < 4
+}
+
+/// The eight neighbours in a window, counterclockwise from the right, sides at even places. A corner whose two
+/// sides are set adds nothing to how they hang together, and is set with them.
+pub(crate) const fn filled_ring(window: u16) -> [bool; 8] {
     let mut ring = [false; 8];
     let mut k = 0;
     while k < 8 {
@@ -226,14 +232,17 @@ const fn is_simple(window: u16) -> bool {
         ring[k] = ring[k] || (ring[k - 1] && ring[(k + 1) % 8]);
         k += 2;
     }
-    let (mut changes, mut sides) = (0, 0);
-    let mut k = 0;
+    ring
+}
+
+/// How many runs of set neighbours a ring has: connected sets, unless all are set.
+pub(crate) const fn n_runs(ring: &[bool; 8]) -> u32 {
+    let (mut runs, mut k) = (0, 0);
     while k < 8 {
-        changes += (ring[k] && !ring[(k + 1) % 8]) as u32;
-        sides += (k % 2 == 0 && ring[k]) as u32;
+        runs += (ring[k] && !ring[(k + 1) % 8]) as u32;
         k += 1;
     }
-    changes == 1 && sides < 4
+    runs
 }
 
 /// Whether the cell in the middle of a window is neither an end nor needed.

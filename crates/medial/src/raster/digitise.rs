@@ -1,6 +1,6 @@
 use super::{Grid, Mask, MaskError};
 use crate::domain::Domain;
-use crate::geom::{Point, orient2d};
+use crate::geom::{Point, Rect, orient2d};
 
 /// Why a domain cannot be put into cells.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -27,20 +27,12 @@ pub enum DigitiseError {
     Mask(#[from] MaskError),
 }
 
-/// The lower left and upper right corner of the box around a domain.
-fn bounds(domain: &Domain) -> Option<(Point, Point)> {
-    domain.edges().iter().map(|edge| edge.start).fold(None, |bounds, p| {
-        let (low, high) = bounds.unwrap_or((p, p));
-        let low = Point::new(low.x.min(p.x), low.y.min(p.y));
-        Some((low, Point::new(high.x.max(p.x), high.y.max(p.y))))
-    })
-}
-
 /// The size of a cell where none is given: a thousandth of the longer side of the box around a domain.
 #[must_use]
 pub fn default_cell(domain: &Domain) -> f64 {
-    let side = bounds(domain).map_or(1.0, |(low, high)| (high.x - low.x).max(high.y - low.y));
-    side / 1000.0
+    let bounds = domain.bounds();
+    let size = bounds.max - bounds.min;
+    size.x.max(size.y) / 1000.0
 }
 
 /// A grid of square cells over the box around a domain, with so many cells more on every side; corners of
@@ -52,7 +44,7 @@ pub fn grid_around(domain: &Domain, cell: f64, margin: u32) -> Result<Grid, Digi
     if !(cell > 0.0 && cell.is_finite()) {
         return Err(DigitiseError::Cell(cell));
     }
-    let (low, high) = bounds(domain).unwrap_or_default();
+    let Rect { min: low, max: high } = domain.bounds();
     let margin = f64::from(margin);
     let first = [low.x, low.y].map(|low| (low / cell).floor() - margin);
     let last = [high.x, high.y].map(|high| (high / cell).ceil() + margin);

@@ -15,7 +15,7 @@ mod outline;
 mod pixel_graph;
 mod topology;
 
-pub(crate) use bits::{Bits, SIMPLE, WINDOW_RING, can_go};
+pub(crate) use bits::{Bits, SIMPLE, WINDOW_RING, can_go, filled_ring, n_runs};
 pub use digitise::{
     DigitiseError, boundary_cells, default_cell, digitise, grid_around, line_cells,
 };
@@ -24,7 +24,7 @@ pub use disks::mask_of_disks;
 pub(crate) use features::Features;
 pub use grid::Grid;
 pub use mask::{Mask, MaskError};
+pub use outline::outline;
 pub(crate) use outline::{Contour, Cracks, Side};
-pub use outline::{MaskOutline, outline};
 pub use pixel_graph::PixelGraph;
 pub use topology::{Topology, topology};

@@ -283,14 +283,8 @@ impl Cracks {
     }
 }
 
-/// The outline of a mask as polygons; see [`outline`].
-#[derive(Clone, Debug, PartialEq)]
-pub struct MaskOutline {
-    /// One polygon for each component, each a list of rings, the outer one first, without a closing point.
-    pub polygons: Vec<Vec<Vec<Point>>>,
-}
-
-/// The outline of a mask along the sides of its cells: one polygon for each component.
+/// The outline of a mask along the sides of its cells: one polygon for each component, each a list of rings, the
+/// outer one first, without a closing point.
 ///
 /// Rings run with the shape on the left, seen with rows going up. Cells that touch at a corner only are in
 /// one ring, which comes there twice.
@@ -299,13 +293,13 @@ pub struct MaskOutline {
 /// use medial::geom::Point;
 /// use medial::raster::{Grid, Mask, outline};
 /// let mask = Mask::new(Grid::of_image(3, 3), |x, y| (x, y) != (1, 1))?;
-/// let polygons = outline(&mask).polygons;
+/// let polygons = outline(&mask);
 /// assert_eq!((polygons.len(), polygons[0].len()), (1, 2));
 /// assert_eq!(polygons[0][0][0], Point::new(0.0, 0.0));
 /// assert_eq!(polygons[0][1].len(), 4);
 /// # Ok::<(), medial::raster::MaskError>(())
 /// ```
 #[must_use]
-pub fn outline(mask: &Mask) -> MaskOutline {
-    MaskOutline { polygons: Cracks::new(&mask.bits, None).polygons(mask.grid()) }
+pub fn outline(mask: &Mask) -> Vec<Vec<Vec<Point>>> {
+    Cracks::new(&mask.bits, None).polygons(mask.grid())
 }

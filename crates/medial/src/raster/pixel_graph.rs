@@ -9,6 +9,7 @@
 //! full block of two by two cells the upper one is left out, as a block is no hole. Block after block from the
 //! first row on, that takes away one side that belongs to no other block, so nothing else changes.
 
+use super::topology::{find, join};
 use super::{Bits, Mask};
 
 /// Cells as nodes, and steps between them.
@@ -141,22 +142,14 @@ impl PixelGraph {
         // Sets of junctions, and whether one is around something.
         let mut parent: Vec<u32> = (0..n as u32).collect();
         let mut winds = vec![false; n];
-        fn find(parent: &mut [u32], mut k: u32) -> u32 {
-            while parent[k as usize] != k {
-                parent[k as usize] = parent[parent[k as usize] as usize];
-                k = parent[k as usize];
-            }
-            k
-        }
         for &[a, b] in &self.steps {
             if !is_junction(a) || !is_junction(b) {
                 continue;
             }
             let (a, b) = (find(&mut parent, a), find(&mut parent, b));
             let winding = winds[a as usize] || winds[b as usize] || a == b;
-            let (low, high) = (a.min(b), a.max(b));
-            parent[high as usize] = low;
-            winds[low as usize] = winding;
+            join(&mut parent, a, b);
+            winds[a.min(b) as usize] = winding;
         }
         let mut best: Vec<u32> = (0..n as u32).collect();
         for node in 0..n as u32 {

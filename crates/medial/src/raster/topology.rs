@@ -63,7 +63,8 @@ fn sets(rows: u32, reach: u32, runs_of: impl Fn(u32, &mut Vec<(u32, u32)>)) -> u
     parent.len() as u32 - joined
 }
 
-fn find(parent: &mut [u32], mut k: u32) -> u32 {
+/// The first number of a set.
+pub(super) fn find(parent: &mut [u32], mut k: u32) -> u32 {
     while parent[k as usize] != k {
         parent[k as usize] = parent[parent[k as usize] as usize];
         k = parent[k as usize];
@@ -71,8 +72,8 @@ fn find(parent: &mut [u32], mut k: u32) -> u32 {
     k
 }
 
-/// Whether two sets were not one before.
-fn join(parent: &mut [u32], a: u32, b: u32) -> bool {
+/// Makes one set of two, with the smaller first number; whether they were not one before.
+pub(super) fn join(parent: &mut [u32], a: u32, b: u32) -> bool {
     let (a, b) = (find(parent, a), find(parent, b));
     parent[a.max(b) as usize] = a.min(b);
     a != b

@@ -42,14 +42,12 @@ mod marking;
 mod rules;
 mod sequential;
 
-use super::sampled::{DomainBoundary, Label, OutlineBoundary, axis_of_cells, cell_radius};
+use super::sampled::{Label, Remains, cells_of};
 use super::watch::Watch;
 use super::{EngineError, Options};
 use crate::axis::{Engine, MedialAxis, Side, names};
 use crate::domain::Domain;
-use crate::raster::{
-    Bits, Cracks, DigitiseError, Features, Mask, PixelGraph, default_cell, digitise, grid_around,
-};
+use crate::raster::{Bits, Cracks, Features, Mask, PixelGraph};
 use fire::Fire;
 use rules::{From, Half};
 
@@ -91,12 +89,9 @@ impl Burning {
 /// What a brushfire left of a mask.
 #[derive(Debug)]
 pub struct Burnt<'m> {
-    mask: &'m Mask,
-    cells: Mask,
+    remains: Remains<'m>,
     times: Vec<u16>,
     passes: u16,
-    features: Features,
-    cracks: Cracks,
 }
 
 impl<'m> Burnt<'m> {
@@ -129,13 +124,13 @@ impl<'m> Burnt<'m> {
         let mut features = Features::new(&mask.bits, mask.grid().aspect(), options.threads);
         let cracks = Cracks::new(&mask.bits, Some(&mut features));
         let cells = mask.with_bits(cells);
-        Ok(Self { mask, cells, times, passes, features, cracks })
+        Ok(Self { remains: Remains { mask, features, cracks, cells }, times, passes })
     }
 
     /// The cells that are left.
     #[must_use]
     pub fn cells(&self) -> &Mask {
-        &self.cells
+        &self.remains.cells
     }
 
     /// How many passes took cells away.
@@ -148,28 +143,23 @@ impl<'m> Burnt<'m> {
     /// outside of the shape.
     #[must_use]
     pub fn pass(&self, column: u32, row: u32) -> Option<u32> {
-        let place = fire::place(self.mask.grid().columns, [column as i32, row as i32]);
-        self.mask.get(column, row).then(|| u32::from(self.times[place]))
+        let mask = self.remains.mask;
+        let place = fire::place(mask.grid().columns, [column as i32, row as i32]);
+        mask.get(column, row).then(|| u32::from(self.times[place]))
     }
 
     /// The distance of a cell of the shape from the boundary, in units of the plane: that between the
     /// centres of the cell and the nearest one outside, less half a cell. `None` outside of the shape.
     #[must_use]
     pub fn radius(&self, column: u32, row: u32) -> Option<f64> {
-        self.mask.get(column, row).then(|| {
-            let (dx, dy) = self.features.offset(column as i32, row as i32);
-            cell_radius(self.mask.grid(), dx, dy)
-        })
+        self.remains.radius(column, row)
     }
 
     /// The graph of what is left, with one node for each junction.
     #[must_use]
     pub fn graph(&self) -> PixelGraph {
-        let aspect = self.mask.grid().aspect();
-        let mut graph = PixelGraph::new(&self.cells);
-        let distance =
-            |&[x, y]: &[u32; 2]| self.features.squared(x as i32, y as i32, aspect).sqrt();
-        let radii: Vec<f64> = graph.cells.iter().map(distance).collect();
+        let mut graph = PixelGraph::new(self.cells());
+        let radii = self.remains.distances(&graph);
         graph.join_junctions(|node| radii[node as usize]);
         graph
     }
@@ -180,20 +170,12 @@ impl<'m> Burnt<'m> {
     /// # Errors
     /// If there are more elements than 32-bit numbers tell apart.
     pub fn axis(&self) -> Result<MedialAxis, EngineError> {
-        let Self { mask, features, cracks, .. } = self;
-        let boundary = OutlineBoundary { mask, features, cracks };
-        axis_of_cells(&self.graph(), mask.grid(), &boundary, self.label())
-    }
-
-    /// The same with the elements of the domain as sites that the mask was made of, and distances from them.
-    fn axis_of_domain(&self, domain: &Domain) -> Result<MedialAxis, EngineError> {
-        let boundary = DomainBoundary::new(domain, self.mask.grid());
-        axis_of_cells(&self.graph(), self.mask.grid(), &boundary, self.label())
+        self.remains.axis(&self.graph(), self.label())
     }
 
     fn label(&self) -> Label {
         let (engine, side) = (Engine::Brushfire, Side::Interior);
-        Label { engine, side, complete: false, cell: self.mask.grid().cell_size() }
+        Label { engine, side, complete: false, cell: self.remains.mask.grid().cell_size() }
     }
 }
 
@@ -267,8 +249,7 @@ pub fn brushfire_of_domain(
     burning: Burning,
     options: &Options<'_>,
 ) -> Result<MedialAxis, EngineError> {
-    let cell = options.cell.unwrap_or_else(|| default_cell(domain));
-    let grid = grid_around(domain, cell, 1)?;
-    let mask = digitise(domain, &grid).map_err(DigitiseError::from)?;
-    Burnt::new(&mask, burning, options)?.axis_of_domain(domain)
+    let mask = cells_of(domain, options)?;
+    let burnt = Burnt::new(&mask, burning, options)?;
+    burnt.remains.axis_of_domain(domain, &burnt.graph(), burnt.label())
 }

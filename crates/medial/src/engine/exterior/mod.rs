@@ -102,11 +102,15 @@ pub fn exterior(
     margin: Option<f64>,
     options: &Options<'_>,
 ) -> Result<MedialAxis, EngineError> {
-    if engine == Engine::RidgeFollowing {
-        return ridges_outside(domain, margin, options);
-    }
-    if !engine.is_exact() {
-        return Err(EngineError::NoExterior { engine });
+    match engine {
+        Engine::PathTracing | Engine::DivideAndConquer => {}
+        Engine::RidgeFollowing => {
+            let ridge = RidgeOptions { side: Side::Exterior, margin, ..RidgeOptions::default() };
+            return ridge_following(domain, &ridge, options).map(|ridges| ridges.axis);
+        }
+        Engine::RasterTransform | Engine::Brushfire => {
+            return Err(EngineError::NoExterior { engine });
+        }
     }
     let frame = Frame::around(domain, margin)?;
     let outside = complement(domain, &frame)?;
@@ -127,12 +131,9 @@ pub fn both_sides(
     margin: Option<f64>,
     options: &Options<'_>,
 ) -> Result<[MedialAxis; 2], EngineError> {
-    if engine == Engine::RidgeFollowing {
-        let outer = ridges_outside(domain, margin, options)?;
-        return Ok([interior(domain, engine, options)?, outer]);
-    }
     if !engine.is_exact() {
-        return Err(EngineError::NoExterior { engine });
+        let outer = exterior(domain, engine, margin, options)?;
+        return Ok([interior(domain, engine, options)?, outer]);
     }
     let frame = Frame::around(domain, margin)?;
     let outside = complement(domain, &frame)?;
@@ -145,15 +146,6 @@ pub fn both_sides(
         None => [interior(domain, engine, options)?, interior(outside.domain(), engine, options)?],
     };
     Ok([inner, within(&frame, &outside, &whole)?])
-}
-
-fn ridges_outside(
-    domain: &Domain,
-    margin: Option<f64>,
-    options: &Options<'_>,
-) -> Result<MedialAxis, EngineError> {
-    let ridge = RidgeOptions { side: Side::Exterior, margin, ..RidgeOptions::default() };
-    ridge_following(domain, &ridge, options).map(|ridges| ridges.axis)
 }
 
 /// An error of ours, somewhere at a domain.

@@ -26,24 +26,18 @@
 mod medial_cells;
 mod thinning;
 
-use super::sampled::{DomainBoundary, Label, OutlineBoundary, axis_of_cells, cell_radius};
+use super::sampled::{Label, Remains, cells_of};
 use super::watch::Watch;
 use super::{EngineError, Options};
 use crate::axis::{Engine, MedialAxis, Side};
 use crate::domain::Domain;
-use crate::raster::{
-    Bits, Cracks, DigitiseError, Features, Mask, PixelGraph, default_cell, digitise, disk_cells,
-    grid_around,
-};
+use crate::raster::{Bits, Cracks, Features, Mask, PixelGraph, disk_cells};
 use medial_cells::medial_cells;
 
 /// The medial cells of a mask, with their distances.
 #[derive(Debug)]
 pub struct Skeleton<'m> {
-    mask: &'m Mask,
-    features: Features,
-    cracks: Cracks,
-    cells: Mask,
+    remains: Remains<'m>,
     complete: bool,
 }
 
@@ -97,48 +91,42 @@ impl<'m> Skeleton<'m> {
         }
         watch.check_now()?;
         let cells = mask.with_bits(cells);
-        Ok(Self { mask, features, cracks, cells, complete: residual.is_none() })
+        let remains = Remains { mask, features, cracks, cells };
+        Ok(Self { remains, complete: residual.is_none() })
     }
 
     /// The medial cells.
     #[must_use]
     pub fn cells(&self) -> &Mask {
-        &self.cells
+        &self.remains.cells
     }
 
     /// The distance of a cell of the shape from the boundary, in units of the plane: that between the
     /// centres of the cell and the nearest one outside, less half a cell. `None` outside of the shape.
     #[must_use]
     pub fn radius(&self, column: u32, row: u32) -> Option<f64> {
-        let (dx, dy) = self.foot(column, row)?;
-        Some(cell_radius(self.mask.grid(), dx, dy))
+        self.remains.radius(column, row)
     }
 
     /// Columns and rows from a cell of the shape to the nearest one outside. `None` outside of the shape.
     #[must_use]
     pub fn foot(&self, column: u32, row: u32) -> Option<(i32, i32)> {
-        let inside = self.mask.get(column, row);
-        inside.then(|| self.features.offset(column as i32, row as i32))
+        self.remains.foot(column, row)
     }
 
     /// The graph of the medial cells: one node for each junction, and, unless the disks are to be the mask
     /// again, without ends whose disk lies in that of the next cell.
     #[must_use]
     pub fn graph(&self) -> PixelGraph {
-        let mut graph = PixelGraph::new(&self.cells);
+        let mut graph = PixelGraph::new(self.cells());
         if self.complete {
             return graph;
         }
-        let aspect = self.mask.grid().aspect();
-        let radii: Vec<f64> = graph.cells.iter().map(|&cell| self.distance(cell, aspect)).collect();
-        graph.drop_stubs(aspect, |node| radii[node as usize]);
-        let radii: Vec<f64> = graph.cells.iter().map(|&cell| self.distance(cell, aspect)).collect();
+        let radii = self.remains.distances(&graph);
+        graph.drop_stubs(self.remains.mask.grid().aspect(), |node| radii[node as usize]);
+        let radii = self.remains.distances(&graph);
         graph.join_junctions(|node| radii[node as usize]);
         graph
-    }
-
-    fn distance(&self, [x, y]: [u32; 2], aspect: f64) -> f64 {
-        self.features.squared(x as i32, y as i32, aspect).sqrt()
     }
 
     /// The axis, with the edges of the mask's [outline](crate::raster::outline) as sites.
@@ -146,19 +134,11 @@ impl<'m> Skeleton<'m> {
     /// # Errors
     /// If there are more elements than 32-bit numbers tell apart.
     pub fn axis(&self) -> Result<MedialAxis, EngineError> {
-        let Self { mask, features, cracks, .. } = self;
-        let boundary = OutlineBoundary { mask, features, cracks };
-        axis_of_cells(&self.graph(), mask.grid(), &boundary, self.label())
-    }
-
-    /// The axis with the elements of the domain as sites that the mask was made of, and distances from them.
-    fn axis_of_domain(&self, domain: &Domain) -> Result<MedialAxis, EngineError> {
-        let boundary = DomainBoundary::new(domain, self.mask.grid());
-        axis_of_cells(&self.graph(), self.mask.grid(), &boundary, self.label())
+        self.remains.axis(&self.graph(), self.label())
     }
 
     fn label(&self) -> Label {
-        let cell = self.mask.grid().cell_size();
+        let cell = self.remains.mask.grid().cell_size();
         let (engine, side) = (Engine::RasterTransform, Side::Interior);
         Label { engine, side, complete: self.complete, cell }
     }
@@ -208,8 +188,7 @@ pub fn raster_transform_of_domain(
     domain: &Domain,
     options: &Options<'_>,
 ) -> Result<MedialAxis, EngineError> {
-    let cell = options.cell.unwrap_or_else(|| default_cell(domain));
-    let grid = grid_around(domain, cell, 1)?;
-    let mask = digitise(domain, &grid).map_err(DigitiseError::from)?;
-    Skeleton::new(&mask, options)?.axis_of_domain(domain)
+    let mask = cells_of(domain, options)?;
+    let skeleton = Skeleton::new(&mask, options)?;
+    skeleton.remains.axis_of_domain(domain, &skeleton.graph(), skeleton.label())
 }

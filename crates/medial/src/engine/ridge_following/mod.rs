@@ -71,7 +71,9 @@ mod thin;
 use std::time::{Duration, Instant};
 
 use super::exterior::exterior_frame;
-use super::sampled::{Boundary, DomainBoundary, Foot, Label, OutlineBoundary, axis_of_cells};
+use super::sampled::{
+    Boundary, DomainBoundary, Foot, Label, OutlineBoundary, axis_of_cells, cells_of,
+};
 use super::watch::Watch;
 use super::{EngineError, Options};
 use crate::axis::{Engine, MedialAxis, Side, Site};
@@ -228,13 +230,12 @@ pub fn ridge_following(
     options: &Options<'_>,
 ) -> Result<RidgeAxis, EngineError> {
     let start = Instant::now();
-    let cell = options.cell.unwrap_or_else(|| default_cell(domain));
     let straight = [ridge.angle.unwrap_or(STRAIGHT_ANGLE), ridge.drift.unwrap_or(DRIFT)];
     if ridge.side == Side::Exterior {
-        return outside(domain, cell, straight, start, ridge, options);
+        return outside(domain, straight, start, ridge, options);
     }
-    let grid = grid_around(domain, cell, 1)?;
-    let inside = digitise(domain, &grid).map_err(DigitiseError::from)?.bits;
+    let mask = cells_of(domain, options)?;
+    let (grid, inside) = (*mask.grid(), mask.bits);
     let boundary = line_cells(domain, &grid).map_err(DigitiseError::from)?.bits;
     let rings = rings::of_domain(domain, ridge.curves, |_| true);
     let shape = Shape { grid, inside, boundary, rings, straight };
@@ -244,12 +245,12 @@ pub fn ridge_following(
 /// The same outside of the polygons.
 fn outside(
     domain: &Domain,
-    cell: f64,
     straight: [f64; 2],
     start: Instant,
     ridge: &RidgeOptions<'_>,
     options: &Options<'_>,
 ) -> Result<RidgeAxis, EngineError> {
+    let cell = options.cell.unwrap_or_else(|| default_cell(domain));
     let frame = exterior_frame(domain, ridge.margin)?;
     let margin = ((frame.max.x - domain.bounds().max.x) / cell).ceil().max(1.0);
     // A margin of too many cells is found out by the grid.

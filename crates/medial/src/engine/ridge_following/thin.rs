@@ -6,7 +6,7 @@ use std::collections::BinaryHeap;
 use super::follow::{Field, RidgePixel};
 use crate::axis::names;
 use crate::engine::EngineError;
-use crate::raster::{Bits, SIMPLE, WINDOW_RING};
+use crate::raster::{Bits, SIMPLE, WINDOW_RING, filled_ring, n_runs};
 
 /// How excess medial pixels are taken away.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -32,32 +32,17 @@ names!(
 /// where both sides beside them are, are one run of at least three.
 static REMOVABLE: [bool; 512] = removable_table();
 
-/// The eight neighbours in a window, counterclockwise from the right: sides at even places.
-const RING: [usize; 8] = [5, 8, 7, 6, 3, 0, 1, 2];
-
 const fn removable_table() -> [bool; 512] {
     let mut table = [false; 512];
     let mut window = 0;
     while window < 512 {
-        let mut ring = [false; 8];
-        let mut k = 0;
-        while k < 8 {
-            ring[k] = window >> RING[k] & 1 != 0;
-            k += 1;
-        }
-        let mut k = 1;
-        while k < 8 {
-            ring[k] = ring[k] || (ring[k - 1] && ring[(k + 1) % 8]);
-            k += 2;
-        }
-        let (mut set, mut changes) = (0, 0);
-        let mut k = 0;
+        let ring = filled_ring(window as u16);
+        let (mut set, mut k) = (0, 0);
         while k < 8 {
             set += ring[k] as u32;
-            changes += (ring[k] && !ring[(k + 1) % 8]) as u32;
             k += 1;
         }
-        table[window] = set > 2 && changes == 1;
+        table[window] = set > 2 && n_runs(&ring) == 1;
         window += 1;
     }
     table
