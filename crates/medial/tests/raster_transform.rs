@@ -1,6 +1,8 @@
 //! The raster transform on random and on known masks: topology, thinness, disks, distances, the same for any
 //! number of threads.
 
+mod support;
+
 use medial::axis::{KeypointKind, MedialAxis};
 use medial::check;
 use medial::domain::{self, Domain};
@@ -8,26 +10,12 @@ use medial::engine::{Options, Skeleton, raster_transform, raster_transform_of_do
 use medial::geom::Point;
 use medial::raster::{Grid, Mask, mask_of_disks, outline, topology};
 use std::num::NonZeroUsize;
-
-/// Pseudo-random numbers.
-struct Dice(u64);
-
-impl Dice {
-    fn next(&mut self, below: u64) -> u64 {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        (self.0.wrapping_mul(0x2545_f491_4f6c_dd1d) >> 33) % below
-    }
-}
+use support::random::Random;
 
 /// A mask of blobs, bars, holes or noise.
 fn random(seed: u64) -> Mask {
-    let mut dice = Dice(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1);
-    for _ in 0..20 {
-        dice.next(2);
-    }
-    let (columns, rows) = (dice.next(70) as u32, dice.next(50) as u32);
+    let mut random = Random(seed);
+    let (columns, rows) = (random.below(70) as u32, random.below(50) as u32);
     let mut grid = Grid::of_image(columns, rows);
     match seed % 4 {
         1 => grid.cell = [0.5, 0.5],
@@ -36,14 +24,14 @@ fn random(seed: u64) -> Mask {
     }
     let mut mask = Mask::empty(grid).unwrap();
     if seed.is_multiple_of(3) {
-        let fill = dice.next(101);
-        return Mask::new(grid, |_, _| dice.next(100) < fill).unwrap();
+        let fill = random.below(101);
+        return Mask::new(grid, |_, _| random.below(100) < fill).unwrap();
     }
-    for _ in 0..dice.next(12) {
-        let inside = dice.next(4) > 0;
-        let (x, y) = (dice.next(70) as i64, dice.next(50) as i64);
-        let (a, b) = (1 + dice.next(16) as i64, 1 + dice.next(16) as i64);
-        let is_round = dice.next(2) == 0;
+    for _ in 0..random.below(12) {
+        let inside = random.below(4) > 0;
+        let (x, y) = (random.below(70) as i64, random.below(50) as i64);
+        let (a, b) = (1 + random.below(16) as i64, 1 + random.below(16) as i64);
+        let is_round = random.below(2) == 0;
         for row in 0..rows {
             for column in 0..columns {
                 let (dx, dy) = (i64::from(column) - x, i64::from(row) - y);

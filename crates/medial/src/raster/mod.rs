@@ -6,6 +6,8 @@
 //! Whatever lies outside of the array is outside of the shape.
 
 mod bits;
+#[cfg(test)]
+mod dice;
 mod digitise;
 mod disks;
 mod features;

@@ -194,17 +194,12 @@ impl PixelGraph {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::raster::dice::dice;
     use crate::raster::topology::of_bits;
     use crate::raster::{Grid, Topology};
 
     fn random(seed: u64) -> Bits {
-        let mut state = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1;
-        let mut dice = move || {
-            state ^= state << 13;
-            state ^= state >> 7;
-            state ^= state << 17;
-            state >> 33
-        };
+        let mut dice = dice(seed);
         let (columns, rows, fill) = (dice() as u32 % 20, dice() as u32 % 20, dice() % 101);
         Mask::new(Grid::of_image(columns, rows), |_, _| dice() % 100 < fill).unwrap().bits
     }
