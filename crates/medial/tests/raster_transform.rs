@@ -49,6 +49,37 @@ fn random(seed: u64) -> Mask {
     mask
 }
 
+/// Some overlapping disks of 8 to 30 cells across and a few holes.
+fn blobs(seed: u64) -> Mask {
+    let mut random = Random(seed);
+    let mut mask = Mask::empty(Grid::of_image(150, 120)).unwrap();
+    for k in 0..24 {
+        let radius = 4 + random.below(12) as i64;
+        let (x, y) = (random.below(150) as i64, random.below(120) as i64);
+        let radius = if k % 6 == 5 { radius / 2 } else { radius };
+        for row in 0..120 {
+            for column in 0..150 {
+                let (dx, dy) = (i64::from(column) - x, i64::from(row) - y);
+                if dx * dx + dy * dy <= radius * radius {
+                    mask.put(column, row, k % 6 < 5);
+                }
+            }
+        }
+    }
+    mask
+}
+
+/// How many cells of one mask are more than one cell from all of the other.
+fn cells_apart(a: &Mask, b: &Mask) -> u64 {
+    let near = |x: u32, y: u32| {
+        let around = [-1_i32, 0, 1];
+        around.iter().any(|dy| {
+            around.iter().any(|dx| b.get(x.wrapping_add_signed(*dx), y.wrapping_add_signed(*dy)))
+        })
+    };
+    (0..a.grid().rows).map(|y| a.cells(y).filter(|&x| !near(x, y)).count() as u64).sum()
+}
+
 /// Components and cycles of an axis.
 fn graph_topology(axis: &MedialAxis) -> (u32, u32) {
     let n = axis.keypoints().len();
@@ -126,6 +157,47 @@ fn threads_change_nothing() {
         let options = Options { threads: NonZeroUsize::new(3).unwrap(), ..Options::default() };
         let alone = raster_transform(&mask, &Options::default()).unwrap();
         assert_eq!(raster_transform(&mask, &options).unwrap(), alone, "{seed}");
+    }
+}
+
+#[test]
+fn bands_of_rows_change_neither_topology_nor_distances_nor_what_disks_cover() {
+    for seed in 0..600 {
+        let mask = random(seed);
+        let band_rows = Some(1 + seed as u32 % 7);
+        let options = Options { band_rows, ..Options::default() };
+        let skeleton = Skeleton::new(&mask, &options).unwrap();
+        let whole = topology(&mask);
+        assert_eq!(topology(skeleton.cells()), whole, "{seed}");
+        assert_eq!(removable_blocks(skeleton.cells()), 0, "{seed}");
+        let at_once = Skeleton::new(&mask, &Options::default()).unwrap();
+        for y in 0..mask.grid().rows {
+            for x in mask.cells(y) {
+                assert_eq!(skeleton.foot(x, y), at_once.foot(x, y), "{seed}: ({x}, {y})");
+            }
+        }
+        let axis = skeleton.axis().unwrap();
+        assert_eq!(graph_topology(&axis), (whole.components, whole.holes), "{seed}");
+        if mask.grid().cell[0].abs() == mask.grid().cell[1].abs() {
+            let all = Options { residual: None, ..options };
+            let axis = raster_transform(&mask, &all).unwrap();
+            assert_eq!(mask_of_disks(&axis, mask.grid()).unwrap(), mask, "{seed}");
+        }
+    }
+}
+
+#[test]
+fn bands_give_what_one_band_gives_of_a_shape_that_is_thick_enough() {
+    // Everything that holds these together is above the residual.
+    for seed in 0..40 {
+        let mask = blobs(seed);
+        let at_once = Skeleton::new(&mask, &Options::default()).unwrap();
+        for band_rows in [5, 16, 37] {
+            let options = Options { band_rows: Some(band_rows), ..Options::default() };
+            let in_bands = Skeleton::new(&mask, &options).unwrap();
+            let apart = cells_apart(at_once.cells(), in_bands.cells());
+            assert!(apart * 50 <= at_once.cells().count(), "{seed}, {band_rows}: {apart}");
+        }
     }
 }
 

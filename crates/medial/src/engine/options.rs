@@ -32,6 +32,10 @@ pub struct Options<'a> {
     /// The size of cells, in units of the input, for engines that put domains into cells; by default
     /// [`default_cell`](crate::raster::default_cell).
     pub cell: Option<f64>,
+    /// Rows of cells that engines on cells hold distances of at a time, so that large masks take less memory; by
+    /// default all, or of masks above 2^26 cells about 2^24. Which cells are above the residual, and how all
+    /// hang together, does not depend on it; which others hold them together may.
+    pub band_rows: Option<u32>,
     /// The chord residual, in cells, above which [`raster_transform`](super::raster_transform) takes cells
     /// for medial; without one, as many are as it takes for their disks to be the mask again.
     pub residual: Option<f64>,
@@ -49,6 +53,7 @@ impl Default for Options<'_> {
             deadline: None,
             alone_below: 10_000,
             cell: None,
+            band_rows: None,
             residual: Some(DEFAULT_RESIDUAL),
         }
     }

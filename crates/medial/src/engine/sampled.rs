@@ -51,7 +51,7 @@ pub(super) struct Foot {
 /// The outline of a mask.
 pub(super) struct OutlineBoundary<'a> {
     pub mask: &'a Mask,
-    pub features: &'a Features,
+    pub features: &'a Features<'a>,
     pub cracks: &'a Cracks,
 }
 
@@ -59,8 +59,7 @@ impl OutlineBoundary<'_> {
     /// The edge with the crack of a cell outside that faces another cell.
     fn edge(&self, [x, y]: [i32; 2], to: [i32; 2]) -> u32 {
         let side = CellSide::facing(to[0] - x, to[1] - y);
-        let record = self.features.cells[self.features.place(x, y)];
-        self.cracks.edge_of[self.cracks.at(record, side) as usize]
+        self.cracks.edge_of[self.cracks.at(x, y, side) as usize]
     }
 
     fn edge_nearest(&self, x: i32, y: i32) -> u32 {
@@ -106,7 +105,7 @@ impl Boundary for OutlineBoundary<'_> {
 #[derive(Debug)]
 pub(super) struct Remains<'m> {
     pub mask: &'m Mask,
-    pub features: Features,
+    pub features: Features<'m>,
     pub cracks: Cracks,
     pub cells: Mask,
 }
@@ -125,9 +124,7 @@ impl Remains<'_> {
 
     /// How far each node of a graph is from the nearest cell outside, between centres, in widths of a cell.
     pub fn distances(&self, graph: &PixelGraph) -> Vec<f64> {
-        let aspect = self.mask.grid().aspect();
-        let distance =
-            |&[x, y]: &[u32; 2]| self.features.squared(x as i32, y as i32, aspect).sqrt();
+        let distance = |&[x, y]: &[u32; 2]| self.features.squared(x as i32, y as i32).sqrt();
         graph.cells.iter().map(distance).collect()
     }
 
@@ -148,6 +145,25 @@ impl Remains<'_> {
         let boundary = DomainBoundary::new(domain, self.mask.grid());
         axis_of_cells(graph, self.mask.grid(), &boundary, label)
     }
+}
+
+/// The nearest cells outside of those of a mask, in bands as high as the options say.
+pub(super) fn features_of<'m>(mask: &'m Mask, options: &Options<'_>) -> Features<'m> {
+    let grid = mask.grid();
+    let height = options.band_rows.unwrap_or_else(|| band_rows(grid.columns, grid.rows));
+    Features::new(&mask.bits, grid.aspect(), options.threads, height)
+}
+
+/// As many rows of a mask as are kept at a time where nothing else is said.
+fn band_rows(columns: u32, rows: u32) -> u32 {
+    /// Masks of no more cells are kept whole: 256 MB.
+    const WHOLE: u64 = 1 << 26;
+    /// Cells of a band of larger ones: as few as cost little time.
+    const CELLS: u64 = 1 << 24;
+    if u64::from(columns) * u64::from(rows) <= WHOLE {
+        return rows;
+    }
+    (CELLS / u64::from(columns)).max(64) as u32
 }
 
 /// The cells of a domain, of the size that the options say: those whose centres lie in it.

@@ -40,7 +40,7 @@ impl Bits {
     #[inline(always)]
     fn byte(&self, x: i32, y: i32) -> usize {
         debug_assert!(
-            (-1..=self.columns as i32).contains(&x) && (-1..=self.rows as i32).contains(&y)
+            (-8..=self.columns as i32).contains(&x) && (-1..=self.rows as i32).contains(&y)
         );
         (y + 1) as usize * self.stride + ((x + 8) >> 3) as usize
     }
@@ -130,6 +130,13 @@ impl Bits {
     pub fn row_bytes(&self, y: u32) -> &[u8] {
         let at = self.byte(0, y as i32);
         &self.data[at..at + (self.columns as usize).div_ceil(8)]
+    }
+
+    /// The bytes of a row from eight columns before the first one up to at least one behind the last; also of
+    /// the rows just outside.
+    pub fn framed_row(&self, y: i32) -> &[u8] {
+        let at = self.byte(-8, y);
+        &self.data[at..at + self.stride]
     }
 
     /// Takes over a row, the first cell in the lowest bit.

@@ -2,8 +2,8 @@
 //!
 //! # Contract
 //! Distances are those between centres, cells may be higher than wide, and what lies around the array is
-//! outside. The cell found is one of the nearest; of several, the same one for any number of threads.
-//! Time is linear in the cells, four bytes each are kept.
+//! outside. The cell found is one of the nearest; of several, the same one for any number of threads and
+//! any height of bands. Time is linear in the cells, and four bytes are kept for each cell of a band.
 //!
 //! # Method
 //! [MRH00] in two phases. Along columns, the nearest cell outside above or below. Then along each run of a
@@ -11,25 +11,64 @@
 //! whose lower envelope is the answer. Nothing beyond can be nearer than these two, so runs are on their own,
 //! and what lies outside costs nothing.
 //!
+//! Rows are on their own as well once the first phase is known, so a band of them can be made at any time from
+//! what its columns say just above and just below it.
+//!
 //! Intersections of parabolas are quotients of whole numbers below 2³⁴ by such below 2¹⁷, rounded down: a
 //! quotient of doubles is not off so far that this could change.
 
 use super::Bits;
 use std::num::NonZeroUsize;
+use std::ops::Range;
+use std::sync::{Mutex, PoisonError};
 
-/// For each cell, and a frame of one cell around them, a number of 32 bits.
-///
-/// Inside of the shape: columns and rows from there to the nearest cell outside. Outside: 0, or what
-/// somebody else puts there.
+/// The nearest cells outside of all cells of a shape, in bands of rows of which one is kept at a time.
 #[derive(Debug)]
-pub(crate) struct Features {
-    pub stride: usize,
-    pub cells: Vec<u32>,
+pub(crate) struct Features<'b> {
+    bits: &'b Bits,
+    aspect: f64,
+    threads: NonZeroUsize,
+    /// Rows of a band.
+    height: u32,
+    /// What each band but the only one needs to be made.
+    carries: Vec<Carry>,
+    held: Held,
+}
+
+/// What is kept.
+#[derive(Debug)]
+enum Held {
+    Whole(Band),
+    /// The band that was asked for last.
+    One(Mutex<Band>),
+}
+
+/// How far the nearest cell outside is along each column, from the row above a band upwards, and from the row
+/// below it downwards; 0 for cells outside.
+#[derive(Debug)]
+struct Carry {
+    above: Vec<u16>,
+    below: Vec<u16>,
+}
+
+/// Rows that a band knows above and below its own, so that neighbours can be asked for.
+const OVERLAP: u32 = 2;
+
+/// A band of rows.
+///
+/// Inside of the shape: columns and rows from there to the nearest cell outside. Outside: 0.
+#[derive(Debug)]
+pub(crate) struct Band {
+    /// The first row that is known.
+    first: i32,
+    aspect: f64,
+    stride: usize,
+    cells: Vec<u32>,
 }
 
 /// Columns and rows to the nearest cell outside.
 #[inline(always)]
-pub(crate) fn offset(cell: u32) -> (i32, i32) {
+fn offset(cell: u32) -> (i32, i32) {
     (i32::from(cell as u16 as i16), i32::from((cell >> 16) as u16 as i16))
 }
 
@@ -38,79 +77,214 @@ fn packed(dx: i32, dy: i32) -> u32 {
     u32::from(dx as u16) | u32::from(dy as u16) << 16
 }
 
-impl Features {
-    /// The nearest cells outside, where the square of the height of a cell is so many of its width.
-    pub fn new(bits: &Bits, aspect: f64, threads: NonZeroUsize) -> Self {
-        let (columns, rows) = (bits.columns() as usize, bits.rows() as usize);
-        let stride = columns + 2;
-        let mut cells = vec![0_u32; stride * (rows + 2)];
-        let inner = &mut cells[stride..stride * (rows + 1)];
-        along_columns(bits, inner, stride);
-        let bands = threads.get().min(rows.max(1));
-        let height = rows.div_ceil(bands).max(1);
-        let work = |first: usize, band: &mut [u32]| {
+impl<'b> Features<'b> {
+    /// The nearest cells outside, where the square of the height of a cell is so many of its width, in bands of
+    /// so many rows.
+    pub fn new(bits: &'b Bits, aspect: f64, threads: NonZeroUsize, height: u32) -> Self {
+        let rows = bits.rows();
+        let height = height.max(1);
+        let carries = if height < rows { carries(bits, height) } else { Vec::new() };
+        let mut band =
+            Band { first: 0, aspect, stride: bits.columns() as usize + 2, cells: vec![] };
+        let held = if carries.is_empty() {
+            band.make(bits, 0..rows, None, threads);
+            Held::Whole(band)
+        } else {
+            Held::One(Mutex::new(band))
+        };
+        Self { bits, aspect, threads, height, carries, held }
+    }
+
+    /// The rows of each band.
+    pub fn bands(&self) -> impl Iterator<Item = Range<u32>> + use<> {
+        let (rows, height) = (self.bits.rows(), self.height);
+        (0..rows).step_by(height as usize).map(move |y| y..rows.min(y.saturating_add(height)))
+    }
+
+    /// Looks into the band with a row, which knows two rows above and below its own, too.
+    pub fn with_band<R>(&self, row: u32, look: impl FnOnce(&Band) -> R) -> R {
+        match &self.held {
+            Held::Whole(band) => look(band),
+            Held::One(band) => {
+                let mut band = band.lock().unwrap_or_else(PoisonError::into_inner);
+                self.make(&mut band, row);
+                look(&band)
+            }
+        }
+    }
+
+    /// Makes the band with a row, unless it is there.
+    fn make(&self, band: &mut Band, row: u32) {
+        let number = row / self.height;
+        let rows = around(number, self.height, self.bits.rows());
+        if band.first != rows.start as i32 || band.cells.len() != rows.len() * band.stride {
+            let carry = &self.carries[number as usize];
+            band.make(self.bits, rows, Some(carry), self.threads);
+        }
+    }
+
+    /// Columns and rows from a cell inside to the nearest one outside. Quick if rows are asked for in their
+    /// order, or there is one band.
+    #[inline(always)]
+    pub fn offset(&self, x: i32, y: i32) -> (i32, i32) {
+        match &self.held {
+            Held::Whole(band) => band.offset(x, y),
+            Held::One(band) => {
+                let mut band = band.lock().unwrap_or_else(PoisonError::into_inner);
+                if !band.has(y) {
+                    self.make(&mut band, y as u32);
+                }
+                band.offset(x, y)
+            }
+        }
+    }
+
+    /// The square of the distance of a cell inside from the nearest one outside, in widths of a cell.
+    #[inline(always)]
+    pub fn squared(&self, x: i32, y: i32) -> f64 {
+        squared(self.offset(x, y), self.aspect)
+    }
+}
+
+impl Band {
+    /// Columns and rows from a cell inside to the nearest one outside.
+    #[inline(always)]
+    pub fn offset(&self, x: i32, y: i32) -> (i32, i32) {
+        offset(self.cells[(y - self.first) as usize * self.stride + (x + 1) as usize])
+    }
+
+    /// The square of the distance of a cell inside from the nearest one outside, in widths of a cell.
+    #[inline(always)]
+    pub fn squared(&self, x: i32, y: i32) -> f64 {
+        squared(self.offset(x, y), self.aspect)
+    }
+
+    /// Whether it knows a row.
+    fn has(&self, y: i32) -> bool {
+        y >= self.first && ((y - self.first) as usize) < self.cells.len() / self.stride
+    }
+
+    /// Finds the nearest cells of other rows.
+    fn make(
+        &mut self,
+        bits: &Bits,
+        rows: Range<u32>,
+        carry: Option<&Carry>,
+        threads: NonZeroUsize,
+    ) {
+        let Self { aspect, stride, .. } = *self;
+        self.first = rows.start as i32;
+        let n_rows = rows.len();
+        self.cells.clear();
+        self.cells.resize(stride * n_rows, 0);
+        along_columns(bits, &mut self.cells, stride, rows.clone(), carry);
+        let shares = threads.get().min(n_rows.max(1));
+        let height = n_rows.div_ceil(shares).max(1);
+        let work = |first: u32, share: &mut [u32]| {
             let mut scratch = Envelope::default();
-            for (y, row) in (first as u32..).zip(band.chunks_exact_mut(stride)) {
+            for (y, row) in (first..).zip(share.chunks_exact_mut(stride)) {
                 bits.runs(y).for_each(|(from, to)| {
                     // With the cells before and behind it.
                     scratch.along(&mut row[from as usize..to as usize + 2], aspect);
                 });
             }
         };
-        if bands == 1 {
-            work(0, inner);
+        if shares == 1 {
+            work(rows.start, &mut self.cells);
         } else {
             std::thread::scope(|scope| {
-                for (k, band) in inner.chunks_mut(height * stride).enumerate() {
-                    scope.spawn(move || work(k * height, band));
+                for (k, share) in (0..).zip(self.cells.chunks_mut(height * stride)) {
+                    scope.spawn(move || work(rows.start + k * height as u32, share));
                 }
             });
         }
-        Self { stride, cells }
-    }
-
-    /// The place of a cell, or of one in the frame.
-    #[inline(always)]
-    pub fn place(&self, x: i32, y: i32) -> usize {
-        (y + 1) as usize * self.stride + (x + 1) as usize
-    }
-
-    /// Columns and rows from a cell inside to the nearest one outside.
-    #[inline(always)]
-    pub fn offset(&self, x: i32, y: i32) -> (i32, i32) {
-        offset(self.cells[self.place(x, y)])
-    }
-
-    /// The square of the distance of a cell inside from the nearest one outside, in widths of a cell.
-    #[inline(always)]
-    pub fn squared(&self, x: i32, y: i32, aspect: f64) -> f64 {
-        let (dx, dy) = self.offset(x, y);
-        f64::from(dx * dx) + aspect * f64::from(dy * dy)
     }
 }
 
-/// Puts into each cell inside how many rows the nearest one outside of its column is away, upwards as a
-/// negative number.
-fn along_columns(bits: &Bits, cells: &mut [u32], stride: usize) {
-    let rows = bits.rows();
+#[inline(always)]
+fn squared((dx, dy): (i32, i32), aspect: f64) -> f64 {
+    f64::from(dx * dx) + aspect * f64::from(dy * dy)
+}
+
+/// The rows that a band knows.
+fn around(number: u32, height: u32, rows: u32) -> Range<u32> {
+    let first = number * height;
+    first.saturating_sub(OVERLAP)..rows.min(first.saturating_add(height).saturating_add(OVERLAP))
+}
+
+/// What each band of so many rows needs to be made.
+fn carries(bits: &Bits, height: u32) -> Vec<Carry> {
+    let (columns, rows) = (bits.columns() as usize, bits.rows());
+    let n = rows.div_ceil(height);
+    let known: Vec<Range<u32>> = (0..n).map(|number| around(number, height, rows)).collect();
+    let mut carries: Vec<Carry> =
+        known.iter().map(|_| Carry { above: vec![0; columns], below: vec![0; columns] }).collect();
+    // As many rows as there can be fit into 16 bits.
+    let further = |counts: &mut [u16], y: u32| {
+        let mut last = 0;
+        for (from, to) in bits.runs(y) {
+            counts[last..from as usize].fill(0);
+            counts[from as usize..to as usize].iter_mut().for_each(|count| *count += 1);
+            last = to as usize;
+        }
+        counts[last..].fill(0);
+    };
+    let mut counts = vec![0; columns];
+    let mut next = known.iter().zip(&mut carries).peekable();
     for y in 0..rows {
-        let (above, own) = cells.split_at_mut(y as usize * stride);
+        while let Some((_, carry)) = next.next_if(|(known, _)| known.start == y) {
+            carry.above.copy_from_slice(&counts);
+        }
+        further(&mut counts, y);
+    }
+    counts.fill(0);
+    let mut next = known.iter().zip(&mut carries).rev().peekable();
+    for y in (0..rows).rev() {
+        while let Some((_, carry)) = next.next_if(|(known, _)| known.end == y + 1) {
+            carry.below.copy_from_slice(&counts);
+        }
+        further(&mut counts, y);
+    }
+    carries
+}
+
+/// Puts into each cell inside of some rows how many rows the nearest one outside of its column is away, upwards
+/// as a negative number.
+fn along_columns(
+    bits: &Bits,
+    cells: &mut [u32],
+    stride: usize,
+    rows: Range<u32>,
+    carry: Option<&Carry>,
+) {
+    for (at, y) in rows.clone().enumerate() {
+        let (above, own) = cells.split_at_mut(at * stride);
         let above = above.rchunks_exact(stride).next();
         for (from, to) in bits.runs(y) {
-            let span = from as usize + 1..to as usize + 1;
-            match above {
+            let (columns, span) = (from as usize..to as usize, from as usize + 1..to as usize + 1);
+            let own = own[span.clone()].iter_mut();
+            match (above, carry) {
                 // Cells outside hold 0.
-                Some(above) => own[span.clone()]
-                    .iter_mut()
-                    .zip(&above[span])
-                    .for_each(|(cell, above)| *cell = above + 1),
-                None => own[span].fill(1),
+                (Some(above), _) => {
+                    own.zip(&above[span]).for_each(|(cell, above)| *cell = above + 1);
+                }
+                (None, Some(carry)) => own
+                    .zip(&carry.above[columns])
+                    .for_each(|(cell, &above)| *cell = u32::from(above) + 1),
+                (None, None) => own.for_each(|cell| *cell = 1),
             }
         }
     }
-    let (mut below, mut down) = (vec![0_u32; stride], vec![0_u32; stride]);
-    for y in (0..rows).rev() {
-        let row = &mut cells[y as usize * stride..][..stride];
+    let mut below = vec![0_u32; stride];
+    let mut down = vec![0_u32; stride];
+    if let Some(carry) = carry {
+        down[1..=carry.below.len()]
+            .iter_mut()
+            .zip(&carry.below)
+            .for_each(|(to, &from)| *to = from.into());
+    }
+    for (at, y) in rows.enumerate().rev() {
+        let row = &mut cells[at * stride..][..stride];
         std::mem::swap(&mut below, &mut down);
         down.fill(0);
         for (from, to) in bits.runs(y) {
@@ -207,7 +381,11 @@ mod tests {
             let grid = Grid::of_image(columns, rows);
             let mask = Mask::new(grid, |_, _| dice() % 100 < fill).unwrap();
             let threads = NonZeroUsize::new(1 + seed as usize % 3).unwrap();
-            let features = Features::new(&mask.bits, aspect, threads);
+            let height = [u32::MAX, 1, 2, 5][seed as usize % 4];
+            let features = Features::new(&mask.bits, aspect, threads, height);
+            assert!(
+                rows == 0 || features.bands().map(|rows| rows.len() as u32).sum::<u32>() == rows
+            );
             for y in 0..rows as i32 {
                 for x in (0..columns as i32).filter(|&x| mask.bits.get(x, y)) {
                     let mut least = f64::INFINITY;
@@ -219,7 +397,7 @@ mod tests {
                     }
                     let (dx, dy) = features.offset(x, y);
                     assert!(!mask.bits.get(x + dx, y + dy), "{seed}: ({x}, {y}) + ({dx}, {dy})");
-                    assert_eq!(features.squared(x, y, aspect), least, "{seed}: ({x}, {y})");
+                    assert_eq!(features.squared(x, y), least, "{seed}: ({x}, {y})");
                 }
             }
         }

@@ -12,6 +12,7 @@ mod digitise;
 mod disks;
 mod features;
 mod grid;
+mod margin;
 mod mask;
 mod outline;
 mod pixel_graph;
@@ -23,7 +24,7 @@ pub use digitise::{
 };
 pub(crate) use disks::disk_cells;
 pub use disks::mask_of_disks;
-pub(crate) use features::Features;
+pub(crate) use features::{Band, Features};
 pub use grid::Grid;
 pub use mask::{Mask, MaskError};
 pub use outline::outline;

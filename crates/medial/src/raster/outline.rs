@@ -14,7 +14,7 @@
 //! For measuring, the outline is the polygon through the middles of its cracks: its length is the same along
 //! rows, columns and diagonals as that of a straight boundary, and never more than 8% too much.
 
-use super::features::Features;
+use super::margin::Margin;
 use super::{Bits, Grid, Mask};
 use crate::geom::Point;
 
@@ -79,8 +79,10 @@ pub(crate) struct Cracks {
     places: Vec<[u32; 2]>,
     /// The length of one of these shares.
     share: f64,
-    /// Numbers of the cracks at the four sides of a cell outside, which has the number of its record.
-    pub sides: Vec<[u32; 4]>,
+    /// The cells outside that have cracks, if cracks are to be found by them.
+    margin: Option<Margin>,
+    /// Numbers of the cracks at the four sides of each of these cells.
+    sides: Vec<[u32; 4]>,
     pub n_polygons: u32,
 }
 
@@ -100,10 +102,19 @@ const RIGHT: [[i32; 2]; 4] = [[0, -1], [0, 0], [-1, 0], [-1, -1]];
 const SIDE: [Side; 4] = [Side::Below, Side::Left, Side::Above, Side::Right];
 
 impl Cracks {
-    /// Follows all contours. Features of cells outside that have cracks become the numbers of their records
-    /// in `sides`.
-    pub fn new(bits: &Bits, mut features: Option<&mut Features>) -> Self {
-        let mut cracks = Self::default();
+    /// Follows all contours, so that the cracks of a cell outside are known.
+    pub fn new(bits: &Bits) -> Self {
+        let margin = Margin::new(bits);
+        let sides = vec![[NONE; 4]; margin.len()];
+        Self { margin: Some(margin), sides, ..Self::default() }.of(bits)
+    }
+
+    /// Follows all contours, and no more.
+    pub fn contours_of(bits: &Bits) -> Self {
+        Self::default().of(bits)
+    }
+
+    fn of(mut self, bits: &Bits) -> Self {
         // Cracks above cells, once they are in a contour.
         let mut seen = Bits::new(bits.columns(), bits.rows());
         // For each contour, twice the area to its left, and its crack farthest left with a cell of the shape
@@ -114,26 +125,20 @@ impl Cracks {
             for (from, to) in bits.runs(y as u32) {
                 for x in from as i32..to as i32 {
                     if !bits.get(x, y - 1) && !seen.get(x, y) {
-                        let (area, left) = cracks.follow(bits, &mut seen, [x, y], &mut features);
+                        let (area, left) = self.follow(bits, &mut seen, [x, y]);
                         areas.push(area);
                         lefts.push(left);
                     }
                 }
             }
         }
-        cracks.nest(bits, &areas, &lefts);
-        cracks.locate();
-        cracks
+        self.nest(bits, &areas, &lefts);
+        self.locate();
+        self
     }
 
     /// Follows one contour from the crack above a cell.
-    fn follow(
-        &mut self,
-        bits: &Bits,
-        seen: &mut Bits,
-        start: [i32; 2],
-        features: &mut Option<&mut Features>,
-    ) -> (i64, [i32; 2]) {
+    fn follow(&mut self, bits: &Bits, seen: &mut Bits, start: [i32; 2]) -> (i64, [i32; 2]) {
         let contour = self.contours.len() as u32;
         let first = self.edges.len() as u32;
         let corner = |[x, y]: [i32; 2]| [x as u32, y as u32];
@@ -154,14 +159,9 @@ impl Cracks {
                 1 if at[0] < left[0] => left = at,
                 _ => {}
             }
-            if let Some(features) = features {
-                let place = features.place(outside[0], outside[1]);
-                let record = &mut features.cells[place];
-                if *record == 0 {
-                    self.sides.push([NONE; 4]);
-                    *record = self.sides.len() as u32;
-                }
-                self.sides[*record as usize - 1][SIDE[direction] as usize] = number;
+            if let Some(margin) = &self.margin {
+                let record = margin.number(outside[0], outside[1]);
+                self.sides[record][SIDE[direction] as usize] = number;
             }
             let [sx, sy] = STEPS[direction];
             area += i64::from(at[0]) * i64::from(sy) - i64::from(at[1]) * i64::from(sx);
@@ -237,8 +237,9 @@ impl Cracks {
 
     /// The crack at a side of a cell outside.
     #[inline(always)]
-    pub fn at(&self, record: u32, side: Side) -> u32 {
-        self.sides[record as usize - 1][side as usize]
+    pub fn at(&self, x: i32, y: i32, side: Side) -> u32 {
+        let record = self.margin.as_ref().map_or(0, |margin| margin.number(x, y));
+        self.sides[record][side as usize]
     }
 
     /// Notes where along its contour each crack is.
@@ -301,5 +302,5 @@ impl Cracks {
 /// ```
 #[must_use]
 pub fn outline(mask: &Mask) -> Vec<Vec<Vec<Point>>> {
-    Cracks::new(&mask.bits, None).polygons(mask.grid())
+    Cracks::contours_of(&mask.bits).polygons(mask.grid())
 }

@@ -42,12 +42,12 @@ mod marking;
 mod rules;
 mod sequential;
 
-use super::sampled::{Label, Remains, cells_of};
+use super::sampled::{Label, Remains, cells_of, features_of};
 use super::watch::Watch;
 use super::{EngineError, Options};
 use crate::axis::{Engine, MedialAxis, Side, names};
 use crate::domain::Domain;
-use crate::raster::{Bits, Cracks, Features, Mask, PixelGraph};
+use crate::raster::{Bits, Cracks, Mask, PixelGraph};
 use fire::Fire;
 use rules::{From, Half};
 
@@ -121,8 +121,8 @@ impl<'m> Burnt<'m> {
         burn(&mut fire, burning)?;
         let (cells, times, passes) = fire.finish();
         watch.check_now()?;
-        let mut features = Features::new(&mask.bits, mask.grid().aspect(), options.threads);
-        let cracks = Cracks::new(&mask.bits, Some(&mut features));
+        let features = features_of(mask, options);
+        let cracks = Cracks::new(&mask.bits);
         let cells = mask.with_bits(cells);
         Ok(Self { remains: Remains { mask, features, cracks, cells }, times, passes })
     }

@@ -1,7 +1,9 @@
 //! The integer medial axis [HR08] with a residual for each cell: which cells lie between two parts of the
 //! outline, and how far these are from each other along it.
 
-use crate::raster::{Bits, Cracks, Features, Side};
+use std::ops::Range;
+
+use crate::raster::{Band, Bits, Cracks, Side};
 
 /// A cell that lies between two parts of the outline.
 #[derive(Clone, Copy, Debug)]
@@ -11,6 +13,8 @@ pub(super) struct MedialCell {
     /// The chord residual in widths of a cell: the length of the outline between the two feet, less their
     /// distance. Infinite between two contours.
     pub residual: f32,
+    /// The square of the distance from the nearest cell outside, in widths of a cell.
+    pub squared: f32,
 }
 
 /// Where the middle of a crack is, in half cells.
@@ -25,7 +29,7 @@ fn middle(x: i32, y: i32, side: Side) -> (i32, i32) {
 }
 
 /// Where on the outline a foot is.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 struct Foot {
     contour: u32,
     /// Length along it.
@@ -38,6 +42,7 @@ struct Foot {
 const UNKNOWN: Foot = Foot { contour: u32::MAX, along: 0.0, middle: (0, 0) };
 
 /// A row of cells: what is known of each, from one column before the first.
+#[derive(Debug)]
 struct Row {
     y: i32,
     /// The greatest residual so far; negative for none.
@@ -60,7 +65,7 @@ impl Row {
 
 /// What the test of a pair of neighbours needs.
 struct Pairs<'a> {
-    features: &'a Features,
+    band: &'a Band,
     cracks: &'a Cracks,
     aspect: f64,
 }
@@ -69,13 +74,12 @@ impl Pairs<'_> {
     /// Columns and rows from a cell to the one outside that is nearest; none for a cell outside.
     #[inline(always)]
     fn offset(&self, x: i32, y: i32, inside: bool) -> (i32, i32) {
-        if inside { self.features.offset(x, y) } else { (0, 0) }
+        if inside { self.band.offset(x, y) } else { (0, 0) }
     }
 
     /// The crack of a cell outside on one side.
     fn crack(&self, x: i32, y: i32, side: Side) -> Foot {
-        let record = self.features.cells[self.features.place(x, y)];
-        let (contour, along) = self.cracks.position(self.cracks.at(record, side));
+        let (contour, along) = self.cracks.position(self.cracks.at(x, y, side));
         Foot { contour, along, middle: middle(x, y, side) }
     }
 
@@ -157,37 +161,65 @@ impl Pairs<'_> {
     }
 }
 
-/// The cells between two parts of the outline whose residual is above a threshold, row by row.
-pub(super) fn medial_cells(
-    bits: &Bits,
-    features: &Features,
-    cracks: &Cracks,
-    aspect: f64,
+/// The search for cells between two parts of the outline, row by row.
+#[derive(Debug)]
+pub(super) struct Search {
     threshold: f32,
-) -> Vec<MedialCell> {
-    let pairs = Pairs { features, cracks, aspect };
-    let columns = bits.columns() as usize;
-    let rows = bits.rows() as i32;
-    let mut found = Vec::new();
-    let (mut own, mut below) = (Row::new(columns, -1), Row::new(columns, 0));
-    for y in -1..rows {
+    own: Row,
+    below: Row,
+    found: Vec<MedialCell>,
+}
+
+impl Search {
+    /// Looks for cells whose residual is above a threshold.
+    pub fn new(columns: u32, threshold: f32) -> Self {
+        let row = |y| Row::new(columns as usize, y);
+        Self { threshold, own: row(-1), below: row(0), found: Vec::new() }
+    }
+
+    /// What was found, row by row.
+    pub fn found(self) -> Vec<MedialCell> {
+        self.found
+    }
+
+    /// Takes the next rows, of which a band knows the first one behind them, too; gives what it found.
+    pub fn rows(
+        &mut self,
+        bits: &Bits,
+        band: &Band,
+        cracks: &Cracks,
+        aspect: f64,
+        rows: Range<u32>,
+    ) -> &[MedialCell] {
+        let pairs = Pairs { band, cracks, aspect };
+        let before = self.found.len();
+        let first = if rows.start == 0 { -1 } else { rows.start as i32 };
+        for y in first..rows.end as i32 {
+            self.row(bits, &pairs, y);
+        }
+        &self.found[before..]
+    }
+
+    /// Takes the pairs of a row with itself and the next one.
+    fn row(&mut self, bits: &Bits, pairs: &Pairs<'_>, y: i32) {
+        let Self { threshold, own, below, found } = self;
         if y >= 0 {
             for (from, to) in bits.runs(y as u32) {
                 let (from, to) = (from as i32, to as i32);
                 // Pairs within the row, with the cells before and behind the run.
                 for x in from - 1..to {
-                    pairs.across(&mut own, x, [x >= from, x + 1 < to]);
+                    pairs.across(own, x, [x >= from, x + 1 < to]);
                 }
                 for x in from..to {
-                    pairs.down(&mut own, &mut below, x, [true, bits.get(x, y + 1)]);
+                    pairs.down(own, below, x, [true, bits.get(x, y + 1)]);
                 }
             }
         }
         // Pairs of a cell outside with one of the shape below it.
-        if y + 1 < rows {
+        if y + 1 < bits.rows() as i32 {
             for (from, to) in bits.runs((y + 1) as u32) {
                 for x in (from as i32..to as i32).filter(|&x| !bits.get(x, y)) {
-                    pairs.down(&mut own, &mut below, x, [false, true]);
+                    pairs.down(own, below, x, [false, true]);
                 }
             }
         }
@@ -195,8 +227,9 @@ pub(super) fn medial_cells(
             for (from, to) in bits.runs(y as u32) {
                 let span = from as usize + 1..to as usize + 1;
                 for (x, residual) in (from..).zip(&mut own.residuals[span.clone()]) {
-                    if *residual > threshold {
-                        found.push(MedialCell { x, y: y as u32, residual: *residual });
+                    if *residual > *threshold {
+                        let squared = pairs.band.squared(x as i32, y) as f32;
+                        found.push(MedialCell { x, y: y as u32, residual: *residual, squared });
                     }
                     *residual = -1.0;
                 }
@@ -204,7 +237,6 @@ pub(super) fn medial_cells(
             }
         }
         own.y = y + 2;
-        std::mem::swap(&mut own, &mut below);
+        std::mem::swap(own, below);
     }
-    found
 }

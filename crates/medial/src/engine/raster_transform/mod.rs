@@ -26,13 +26,14 @@
 mod medial_cells;
 mod thinning;
 
-use super::sampled::{Label, Remains, cells_of};
+use super::sampled::{Label, Remains, cells_of, features_of};
 use super::watch::Watch;
 use super::{EngineError, Options};
 use crate::axis::{Engine, MedialAxis, Side};
 use crate::domain::Domain;
 use crate::raster::{Bits, Cracks, Features, Mask, PixelGraph, disk_cells};
-use medial_cells::medial_cells;
+use medial_cells::Search;
+use thinning::{Thinning, thin_further};
 
 /// The medial cells of a mask, with their distances.
 #[derive(Debug)]
@@ -63,32 +64,42 @@ impl<'m> Skeleton<'m> {
         let residual = options.residual;
         let aspect = mask.grid().aspect();
         let bits = &mask.bits;
-        let mut features = Features::new(bits, aspect, options.threads);
+        let features = features_of(mask, options);
         watch.check_now()?;
-        let cracks = Cracks::new(bits, Some(&mut features));
+        let cracks = Cracks::new(bits);
         watch.check_now()?;
         // Without a threshold, whatever lies between two feet.
         let threshold = residual.map_or(-0.5, |residual| residual as f32);
-        let medial = medial_cells(bits, &features, &cracks, aspect, threshold);
-        watch.check_now()?;
+        let mut search = Search::new(bits.columns(), threshold);
         let mut kept = Bits::new(bits.columns(), bits.rows());
-        medial.iter().for_each(|cell| kept.set(cell.x as i32, cell.y as i32));
-        let squared = |x: i32, y: i32| features.squared(x, y, aspect);
-        let mut cells = bits.clone();
-        thinning::thin(&mut cells, &kept, squared);
-        watch.check_now()?;
-        if residual.is_some() {
-            thinning::thin_further(&mut cells, &medial, squared);
+        let mut thinning = Thinning::new(bits);
+        for rows in features.bands() {
+            features.with_band(rows.start, |band| {
+                let found = search.rows(bits, band, &cracks, aspect, rows.clone());
+                found.iter().for_each(|cell| kept.set(cell.x as i32, cell.y as i32));
+                thinning.band(&kept, band, rows);
+            });
+            watch.check_now()?;
+        }
+        let cells = if residual.is_some() {
+            thin_further(thinning, &search.found())
         } else {
+            let cells = thinning.finish();
             let lost = uncovered(mask, &features, &cells);
             if lost.count() > 0 {
                 for y in 0..bits.rows() {
                     lost.ones(y).for_each(|x| kept.set(x as i32, y as i32));
                 }
-                cells = bits.clone();
-                thinning::thin(&mut cells, &kept, squared);
+                let mut thinning = Thinning::new(bits);
+                for rows in features.bands() {
+                    features.with_band(rows.start, |band| thinning.band(&kept, band, rows));
+                    watch.check_now()?;
+                }
+                thinning.finish()
+            } else {
+                cells
             }
-        }
+        };
         watch.check_now()?;
         let cells = mask.with_bits(cells);
         let remains = Remains { mask, features, cracks, cells };
@@ -145,12 +156,11 @@ impl<'m> Skeleton<'m> {
 }
 
 /// Cells of the shape that no disk of some cells covers.
-fn uncovered(mask: &Mask, features: &Features, cells: &Bits) -> Bits {
-    let aspect = mask.grid().aspect();
+fn uncovered(mask: &Mask, features: &Features<'_>, cells: &Bits) -> Bits {
     let mut left = mask.bits.clone();
     for y in 0..cells.rows() {
         for x in cells.ones(y) {
-            let squared = features.squared(x as i32, y as i32, aspect);
+            let squared = features.squared(x as i32, y as i32);
             disk_cells(mask.grid(), x, y, squared, |row, from, to| left.clear_run(row, from, to));
         }
     }

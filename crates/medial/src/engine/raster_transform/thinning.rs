@@ -3,9 +3,10 @@
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
+use std::ops::Range;
 
 use super::medial_cells::MedialCell;
-use crate::raster::{Bits, SIMPLE, WINDOW_RING, can_go};
+use crate::raster::{Band, Bits, SIMPLE, WINDOW_RING, can_go};
 
 /// Steps of the distance within which cells go in the order in which they became removable.
 const STEPS_PER_CELL: f32 = 4.0;
@@ -31,74 +32,126 @@ fn unpacked(cell: u32) -> (i32, i32) {
     ((cell & 0xffff) as i32, (cell >> 16) as i32)
 }
 
-/// Takes from a shape all cells that can go without changing components and holes, nearest to the boundary
-/// first, but those to be kept. Squares of distances are given, in widths of a cell.
-///
-/// Every cell that was left over can go no more.
-pub(super) fn thin(shape: &mut Bits, kept: &Bits, squared: impl Fn(i32, i32) -> f64) {
-    // Cells that wait for their turn, by distance. Each comes in with the first of its neighbours that
-    // goes, and is asked once it is its turn: then those nearer to the boundary are gone.
-    let mut queues: Vec<Vec<u32>> = Vec::new();
-    let mut waits = Bits::new(shape.columns(), shape.rows());
-    let level = |x, y| ((squared(x, y) as f32).sqrt() * STEPS_PER_CELL) as usize;
-    let push = |queues: &mut Vec<Vec<u32>>, at: usize, x, y| {
-        if queues.len() <= at {
-            queues.resize_with(at + 1, Vec::new);
-        }
-        queues[at].push(packed(x, y));
-    };
-    for y in 0..shape.rows() as i32 {
-        for (from, to) in shape.runs(y as u32) {
-            for x in from as i32..to as i32 {
-                if shape.window(x, y) & WINDOW_RING != WINDOW_RING && !kept.get(x, y) {
-                    waits.set(x, y);
-                    push(&mut queues, level(x, y), x, y);
-                }
-            }
-        }
+/// The bits of the neighbours in the row below.
+const BELOW: u16 = 0b111 << 6;
+
+/// A shape that is thinned band by band.
+#[derive(Debug)]
+pub(super) struct Thinning {
+    shape: Bits,
+    /// Cells that wait for their turn.
+    waits: Bits,
+    /// The same by distance. Each comes in with the first of its neighbours that goes, and is asked once it is
+    /// its turn: then those nearer to the boundary are gone.
+    queues: Vec<Vec<u32>>,
+    left: Left,
+}
+
+/// Cells that were left over although they are not to be kept, row by row, with the squares of their
+/// distances.
+#[derive(Debug, Default)]
+struct Left(Vec<(u32, f32)>);
+
+impl Left {
+    fn squared(&self, cell: u32) -> f32 {
+        let place = self.0.binary_search_by_key(&cell, |&(cell, _)| cell);
+        place.map_or(0.0, |place| self.0[place].1)
     }
-    let mut now = 0;
-    while now < queues.len() {
-        // Cells that come in meanwhile are behind those that are here.
-        let mut next = 0;
-        while let Some(&cell) = queues[now].get(next) {
-            next += 1;
-            let (x, y) = unpacked(cell);
-            waits.clear(x, y);
-            let window = shape.window(x, y);
-            if !SIMPLE[window as usize] {
-                continue;
+}
+
+impl Thinning {
+    pub fn new(shape: &Bits) -> Self {
+        let waits = Bits::new(shape.columns(), shape.rows());
+        Self { shape: shape.clone(), waits, queues: Vec::new(), left: Left::default() }
+    }
+
+    /// The cells that are left.
+    pub fn finish(self) -> Bits {
+        self.shape
+    }
+
+    /// Takes from the shape all cells down to the last row of a band that can go without changing components
+    /// and holes, nearest to the boundary first, but those to be kept.
+    ///
+    /// Bands come in their order. What an earlier one had to leave because of cells below it goes as soon as
+    /// it can, so after the last band every cell that was left over can go no more.
+    pub fn band(&mut self, kept: &Bits, band: &Band, rows: Range<u32>) {
+        let Self { shape, waits, queues, left } = self;
+        let (first, end) = (rows.start as i32, rows.end as i32);
+        let level = |x, y| {
+            let squared = match y >= first {
+                true => band.squared(x, y) as f32,
+                false => left.squared(packed(x, y)),
+            };
+            (squared.sqrt() * STEPS_PER_CELL) as usize
+        };
+        let push = |queues: &mut Vec<Vec<u32>>, at: usize, x, y| {
+            if queues.len() <= at {
+                queues.resize_with(at + 1, Vec::new);
             }
-            shape.clear(x, y);
-            let free = window & WINDOW_RING & !kept.window(x, y) & !waits.window(x, y);
-            for (bit, dx, dy) in NEIGHBOURS {
-                if free & bit != 0 {
-                    let (u, v) = (x + dx, y + dy);
-                    waits.set(u, v);
-                    push(&mut queues, level(u, v).max(now), u, v);
+            queues[at].push(packed(x, y));
+        };
+        for y in rows.clone() {
+            for (from, to) in shape.runs(y) {
+                let y = y as i32;
+                for x in from as i32..to as i32 {
+                    if shape.window(x, y) & WINDOW_RING != WINDOW_RING && !kept.get(x, y) {
+                        waits.set(x, y);
+                        push(queues, level(x, y), x, y);
+                    }
                 }
             }
         }
-        queues[now] = Vec::new();
-        now += 1;
+        let mut now = 0;
+        while now < queues.len() {
+            // Cells that come in meanwhile are behind those that are here.
+            let mut next = 0;
+            while let Some(&cell) = queues[now].get(next) {
+                next += 1;
+                let (x, y) = unpacked(cell);
+                waits.clear(x, y);
+                let window = shape.window(x, y);
+                if !SIMPLE[window as usize] {
+                    continue;
+                }
+                shape.clear(x, y);
+                let mut free = window & WINDOW_RING & !kept.window(x, y) & !waits.window(x, y);
+                if y + 1 == end {
+                    free &= !BELOW;
+                }
+                for (bit, dx, dy) in NEIGHBOURS {
+                    if free & bit != 0 {
+                        let (u, v) = (x + dx, y + dy);
+                        waits.set(u, v);
+                        push(queues, level(u, v).max(now), u, v);
+                    }
+                }
+            }
+            queues[now] = Vec::new();
+            now += 1;
+        }
+        queues.clear();
+        for y in rows {
+            for x in shape.ones(y).filter(|&x| !kept.get(x as i32, y as i32)) {
+                let (x, y) = (x as i32, y as i32);
+                left.0.push((packed(x, y), band.squared(x, y) as f32));
+            }
+        }
     }
 }
 
 /// Takes from what is left those cells that are neither ends nor needed to hold the rest together, the worst
 /// first: those of the least residual, then of the least distance.
-pub(super) fn thin_further(
-    shape: &mut Bits,
-    medial: &[MedialCell],
-    squared: impl Fn(i32, i32) -> f64,
-) {
-    let residual = |cell: u32| {
-        let place = |medial: &MedialCell| packed(medial.x as i32, medial.y as i32);
-        medial.binary_search_by_key(&cell, place).map_or(0.0, |found| medial[found].residual)
-    };
+pub(super) fn thin_further(thinning: Thinning, medial: &[MedialCell]) -> Bits {
+    let Thinning { mut shape, left, .. } = thinning;
     let quality = |cell: u32| {
-        let (x, y) = unpacked(cell);
+        let place = |medial: &MedialCell| packed(medial.x as i32, medial.y as i32);
+        let (residual, squared) = match medial.binary_search_by_key(&cell, place) {
+            Ok(found) => (medial[found].residual, medial[found].squared),
+            Err(_) => (0.0, left.squared(cell)),
+        };
         // Neither is negative, so their bits are in their order.
-        u64::from(residual(cell).to_bits()) << 32 | u64::from((squared(x, y) as f32).to_bits())
+        u64::from(residual.to_bits()) << 32 | u64::from(squared.to_bits())
     };
     // What cannot go may be able to once a neighbour is gone.
     let mut waiting = BinaryHeap::new();
@@ -123,4 +176,5 @@ pub(super) fn thin_further(
             }
         }
     }
+    shape
 }

@@ -72,15 +72,15 @@ use std::time::{Duration, Instant};
 
 use super::exterior::exterior_frame;
 use super::sampled::{
-    Boundary, DomainBoundary, Foot, Label, OutlineBoundary, axis_of_cells, cells_of,
+    Boundary, DomainBoundary, Foot, Label, OutlineBoundary, axis_of_cells, cells_of, features_of,
 };
 use super::watch::Watch;
 use super::{EngineError, Options};
 use crate::axis::{Engine, MedialAxis, Side, Site};
 use crate::domain::{Complement, Curves, Domain};
 use crate::raster::{
-    Bits, Cracks, DigitiseError, Features, Grid, Mask, PixelGraph, default_cell, digitise,
-    grid_around, line_cells,
+    Bits, Cracks, DigitiseError, Grid, Mask, PixelGraph, default_cell, digitise, grid_around,
+    line_cells,
 };
 use edges::{Edges, Merging};
 use follow::Field;
@@ -298,7 +298,7 @@ pub fn ridge_following_of_mask(
         return Err(EngineError::NoExterior { engine: Engine::RidgeFollowing });
     }
     let grid = *mask.grid();
-    let cracks = Cracks::new(&mask.bits, None);
+    let cracks = Cracks::contours_of(&mask.bits);
     let shape = Shape {
         grid,
         inside: mask.bits.clone(),
@@ -310,8 +310,8 @@ pub fn ridge_following_of_mask(
         ],
     };
     let ridges = Ridges::new(shape, start, ridge, options)?;
-    let mut features = Features::new(&mask.bits, grid.aspect(), options.threads);
-    let cracks = Cracks::new(&mask.bits, Some(&mut features));
+    let features = features_of(mask, options);
+    let cracks = Cracks::new(&mask.bits);
     let boundary = OutlineBoundary { mask, features: &features, cracks: &cracks };
     ridges.axis(ridge, |_| boundary)
 }
