@@ -9,7 +9,7 @@
 //! `medial-bench axis SHAPE EDGES` computes the axis of a shape once, for counting
 //! instructions in `medial_bench_domain` and `medial_bench_engine`; `medial-bench work SHAPE EDGES`
 //! prints the numbers of edges and rings, and what the merges of `divide_and_conquer` did: pieces,
-//! arcs, starts; `medial-bench raster FILE.pbm` times the raster transform of a bitmap,
+//! arcs, starts; `medial-bench raster FILE.pbm [BAND_ROWS]` times the raster transform of a bitmap,
 //! and `medial-bench skeleton FILE.pbm TARGET.pbm [none]` writes its medial cells;
 //! `medial-bench ridge` runs the experiments of the report on ridge following, as `ridge` describes,
 //! and `medial-bench inverse FILE.pbm...` tells how well disks give bitmaps back.
@@ -43,13 +43,14 @@ fn main() -> Result<(), Error> {
         ["offsets", distances] => parallel_curves(distances),
         ["axis", shape, edges] => axis(shape, edges.parse()?),
         ["work", shape, edges] => work(shape, edges.parse()?),
-        ["raster", file] => raster(file),
+        ["raster", file] => raster(file, None),
+        ["raster", file, rows] => raster(file, Some(rows.parse()?)),
         ["ridge"] => ridges(),
         ["inverse", files @ ..] => inverses(files),
         ["skeleton", file, target] => skeleton(file, target, engine::Options::default().residual),
         ["skeleton", file, target, "none"] => skeleton(file, target, None),
         _ => {
-            Err("medial-bench draw, axis or work SHAPE EDGES, time [ENGINE], both ENGINE, operation NAME or offsets D,D, ridge, inverse FILE.pbm..., raster FILE.pbm or skeleton FILE.pbm TARGET.pbm [none]".into())
+            Err("medial-bench draw, axis or work SHAPE EDGES, time [ENGINE], both ENGINE, operation NAME or offsets D,D, ridge, inverse FILE.pbm..., raster FILE.pbm [BAND_ROWS] or skeleton FILE.pbm TARGET.pbm [none]".into())
         }
     }
 }
@@ -142,11 +143,11 @@ fn medial_bench_operation(name: &str, domain: &Domain, axis: &MedialAxis) -> Res
 }
 
 /// Times the raster transform of a bitmap, and prints, as JSON, nanoseconds a pixel of the cells and of their
-/// axis, how many there are, and by how many bytes a pixel the memory grew.
-fn raster(file: &str) -> Result<(), Error> {
+/// axis, how many there are, and by how many bytes a pixel the memory grew; in bands of so many rows.
+fn raster(file: &str, band_rows: Option<u32>) -> Result<(), Error> {
     let mask = bitmap::read(file)?;
     let pixels = mask.grid().n_cells() as f64;
-    let options = engine::Options::default();
+    let options = engine::Options { band_rows, ..engine::Options::default() };
     let before = peak_bytes();
     let (mut cells, mut axes, mut found) = (Vec::new(), Vec::new(), (0, 0));
     let start = ThreadTime::now();

@@ -92,7 +92,8 @@ impl Boundary for OutlineBoundary<'_> {
         let edge = &self.cracks.edges[element as usize];
         let contour = &self.cracks.contours[edge.contour as usize];
         let grid = self.mask.grid();
-        let [from, to] = [edge.from, edge.to].map(|[column, row]| grid.corner(column, row));
+        let ends = [edge.from, self.cracks.end_of(element)];
+        let [from, to] = ends.map(|[column, row]| grid.corner(column, row));
         // The shape is to the left as long as rows go up when columns go to the right.
         let (a, b) = if grid.is_mirrored() { (to, from) } else { (from, to) };
         let index = element - contour.first;
@@ -285,15 +286,20 @@ pub(super) fn axis_of_cells(
     // Elements to the left and right of each step.
     let sides: Vec<[u32; 2]> =
         graph.steps.iter().map(|&step| sides_of(graph, grid, boundary, &feet, step)).collect();
-    let mut number = vec![u32::MAX; boundary.len() as usize];
+    // Of large images these are most of the memory.
+    let radii: Vec<f64> = feet.iter().map(|foot| foot.radius).collect();
+    drop(feet);
     let (starts, incident) = graph.incidence();
-    let lists: Vec<Around> = (0..graph.cells.len())
-        .map(|node| {
-            let around = &incident[starts[node] as usize..starts[node + 1] as usize];
-            governors(graph, grid, boundary, &feet, &sides, node as u32, around)
-        })
-        .collect();
-    lists.iter().flatten().for_each(|&element| number[element as usize] = 0);
+    // The elements around all nodes, one after the other, and where those of each end.
+    let (mut around, mut ends) = (Vec::new(), Vec::with_capacity(graph.cells.len()));
+    for node in 0..graph.cells.len() {
+        let steps = &incident[starts[node] as usize..starts[node + 1] as usize];
+        around.extend(governors(graph, grid, boundary, &sides, node as u32, steps));
+        ends.push(around.len());
+    }
+    drop(incident);
+    let mut number = vec![u32::MAX; boundary.len() as usize];
+    around.iter().for_each(|&element| number[element as usize] = 0);
     let too_large = || EngineError::TooLarge { n_edges: boundary.len() as usize };
     let mut sites = SiteTable::with_room(0, 0, 0);
     for (element, number) in (0..).zip(&mut number).filter(|(_, number)| **number == 0) {
@@ -301,8 +307,10 @@ pub(super) fn axis_of_cells(
         sites.push(&boundary.record(element)).ok_or_else(too_large)?;
     }
     sites.shrink();
+    around.iter_mut().for_each(|element| *element = number[*element as usize]);
     let mut keypoints = KeypointTable::with_room(graph.cells.len());
-    for ((node, &[x, y]), list) in (0..).zip(&graph.cells).zip(lists) {
+    let mut start = 0;
+    for (node, (&[x, y], end)) in graph.cells.iter().zip(ends).enumerate() {
         // The axis outside goes on where the array ends.
         let is_last = x == 0 || y == 0 || x + 1 == grid.columns || y + 1 == grid.rows;
         let kind = match starts[node + 1] - starts[node] {
@@ -311,12 +319,14 @@ pub(super) fn axis_of_cells(
             2 => KeypointKind::Transition,
             _ => KeypointKind::Junction,
         };
-        let mut list: Around = list.into_iter().map(|element| number[element as usize]).collect();
+        let list = &mut around[start..end];
         let smallest = (0..list.len()).min_by_key(|&k| list[k]).unwrap_or(0);
         list.rotate_left(smallest);
-        let radius = feet[node].radius;
-        keypoints.push(&Keypoint { position: grid.centre(x, y), radius, kind }, list.into_iter());
+        let keypoint = Keypoint { position: grid.centre(x, y), radius: radii[node], kind };
+        keypoints.push(&keypoint, list.iter().copied());
+        start = end;
     }
+    drop(around);
     let mut paths = PathTable::with_room(graph.steps.len());
     for (&[from, to], sides) in graph.steps.iter().zip(&sides) {
         let [left, right] = sides.map(|element| number[element as usize]);
@@ -370,7 +380,6 @@ fn governors(
     graph: &PixelGraph,
     grid: &Grid,
     boundary: &impl Boundary,
-    feet: &[Foot],
     sides: &[[u32; 2]],
     node: u32,
     around: &[u32],
@@ -379,7 +388,7 @@ fn governors(
     let mut list = Around::new();
     if around.is_empty() {
         let [x, y] = graph.cells[node as usize].map(|at| at as i32);
-        list.push(feet[node as usize].element);
+        list.push(boundary.foot(x, y).element);
         let turn = if grid.is_mirrored() { -1 } else { 1 };
         let sides = [[1, 0], [0, turn], [-1, 0], [0, -turn]];
         list.extend(sides.map(|[dx, dy]| boundary.beside(x + dx, y + dy, [x, y])));

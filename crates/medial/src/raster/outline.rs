@@ -49,11 +49,9 @@ pub(crate) struct CrackEdge {
     pub contour: u32,
     /// Number of its first crack.
     pub first: u32,
-    /// Corners of cells, as columns and rows from the origin.
+    /// The corner of cells where it starts, as columns and rows from the origin. It ends where the next one
+    /// starts.
     pub from: [u32; 2],
-    pub to: [u32; 2],
-    /// Length of the contour from the middle of its first crack to that of the first one of this edge.
-    pub along: f64,
 }
 
 /// A contour: a ring of edges.
@@ -106,7 +104,8 @@ impl Cracks {
     pub fn new(bits: &Bits) -> Self {
         let margin = Margin::new(bits);
         let sides = vec![[NONE; 4]; margin.len()];
-        Self { margin: Some(margin), sides, ..Self::default() }.of(bits)
+        let edge_of = Vec::with_capacity(margin.n_cracks());
+        Self { margin: Some(margin), sides, edge_of, ..Self::default() }.of(bits)
     }
 
     /// Follows all contours, and no more.
@@ -132,6 +131,8 @@ impl Cracks {
                 }
             }
         }
+        self.edges.shrink_to_fit();
+        drop(seen);
         self.nest(bits, &areas, &lefts);
         self.locate();
         self
@@ -148,8 +149,7 @@ impl Cracks {
         loop {
             let number = self.edge_of.len() as u32;
             if turned {
-                let (from, to) = (corner(at), corner(at));
-                self.edges.push(CrackEdge { contour, first: number, from, to, along });
+                self.edges.push(CrackEdge { contour, first: number, from: corner(at) });
             }
             self.edge_of.push(self.edges.len() as u32 - 1);
             let [dx, dy] = RIGHT[direction];
@@ -176,10 +176,6 @@ impl Cracks {
                 direction = (direction + 1) % 4;
             }
             turned = direction != before;
-            if turned {
-                let last = self.edges.len() - 1;
-                self.edges[last].to = corner(at);
-            }
             along += if turned { AROUND } else { 1.0 };
             if at == start && direction == 0 {
                 break;
@@ -206,9 +202,10 @@ impl Cracks {
         // Cracks with a cell of the shape to their right, by place; only those left of some hole matter, but
         // all are few.
         let mut starts: Vec<([u32; 2], u32)> = Vec::with_capacity(self.edges.len() / 2);
-        for edge in &self.edges {
+        for (number, edge) in (0..).zip(&self.edges) {
             // Upwards: the shape lies to the right.
-            if edge.from[0] == edge.to[0] && edge.to[1] < edge.from[1] {
+            let to = self.end_of(number);
+            if edge.from[0] == to[0] && to[1] < edge.from[1] {
                 starts.push(([edge.from[0], edge.from[1]], edge.contour));
             }
         }
@@ -247,11 +244,17 @@ impl Cracks {
         let longest = self.contours.iter().map(|contour| contour.length).fold(0.0, f64::max);
         self.share = longest * 0.5_f64.powi(31);
         self.places.reserve_exact(self.edge_of.len());
-        for (crack, &edge) in (0..).zip(&self.edge_of) {
-            let edge = &self.edges[edge as usize];
-            let crack: u32 = crack;
-            let along = edge.along + f64::from(crack - edge.first);
-            self.places.push([edge.contour, (along / self.share) as u32]);
+        let n_cracks = self.edge_of.len() as u32;
+        let ends = self.edges.iter().skip(1).map(|edge| edge.first).chain([n_cracks]);
+        // From the middle of the first crack of a contour.
+        let (mut contour, mut along) = (NONE, 0.0);
+        for (edge, end) in self.edges.iter().zip(ends) {
+            along = if edge.contour == contour { along + AROUND } else { 0.0 };
+            contour = edge.contour;
+            let n = end - edge.first;
+            let place = |k: u32| [contour, ((along + f64::from(k)) / self.share) as u32];
+            self.places.extend((0..n).map(place));
+            along += f64::from(n - 1);
         }
     }
 
@@ -261,6 +264,16 @@ impl Cracks {
     pub fn position(&self, crack: u32) -> (u32, f64) {
         let [contour, along] = self.places[crack as usize];
         (contour, f64::from(along) * self.share)
+    }
+
+    /// Where an edge ends.
+    pub fn end_of(&self, edge: u32) -> [u32; 2] {
+        let edges = &self.edges;
+        let contour = edges[edge as usize].contour;
+        match edges.get(edge as usize + 1) {
+            Some(next) if next.contour == contour => next.from,
+            _ => edges[self.contours[contour as usize].first as usize].from,
+        }
     }
 
     /// The edges of a contour.
