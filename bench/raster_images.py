@@ -1,6 +1,6 @@
-"""Draws the bitmaps on which thinning is timed; prints the share of the picture that is filled.
+"""Draws the bitmaps, and large images, on which thinning is timed; prints the share of the picture that is filled.
 
-usage: raster_images.py SHAPE SIDE FOLDER FILE.pbm
+usage: raster_images.py SHAPE SIDE FOLDER FILE.pbm|FILE.png
 
 SHAPE: horse (one thick silhouette, enlarged), blobs (a labyrinth of constant width), page (a scanned page, beside
 itself as often as it takes).
@@ -42,8 +42,11 @@ def main():
     shape, side, folder, target = sys.argv[1:]
     mask = {"horse": horse, "blobs": blobs, "page": page}[shape](int(side), pathlib.Path(folder))
     rows, columns = mask.shape
-    data = np.packbits(mask, axis=1).tobytes()
-    pathlib.Path(target).write_bytes(b"P4\n%d %d\n" % (columns, rows) + data)
+    if target.endswith(".png"):
+        imageio.imwrite(target, np.where(mask, np.uint8(255), np.uint8(0)))
+    else:
+        data = np.packbits(mask, axis=1).tobytes()
+        pathlib.Path(target).write_bytes(b"P4\n%d %d\n" % (columns, rows) + data)
     print(mask.mean())
 
 

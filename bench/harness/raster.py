@@ -17,6 +17,10 @@ SIDES = [512, 1024, 2048, 4096]
 
 SHAPES = ["horse", "blobs", "page"]
 
+# Images too large to be held as numbers, and their side.
+LARGE = ["horse", "page"]
+LARGE_SIDE = 20_000
+
 OURS = "medial raster_transform"
 
 RIVALS = ["skimage medial_axis", "skimage skeletonize", "skimage skeletonize lee", "skimage thin",
@@ -66,6 +70,29 @@ def command(name, programs, python, image):
     if name == RIVALS[-1]:
         return [str(programs["rivals"]), "raster", str(image)]
     return [str(python), str(BENCH / "raster_peers.py"), name, str(image)]
+
+
+def bands(programs, python, folder, data):
+    """Yields the lines of the table of large images, one run each."""
+    yield ["image", "megapixels", "filled", "rows of a band", "read, s", "engine, s", "write, s",
+           "peak of memory, MB", "bytes a pixel"]
+    yield ["---"] + ["--:"] * 8
+    for shape in LARGE:
+        image = folder / f"{shape}.png"
+        words = [python, BENCH / "raster_images.py", shape, LARGE_SIDE, data / "images", image]
+        filled = float(run(list(map(str, words)), 600)[0])
+        # All rows at once for comparison.
+        for rows in [None, LARGE_SIDE]:
+            told = folder / "timings.json"
+            words = [programs["medial"], "axis", image, "--by", "branch", "-o", folder / "axis.csv",
+                     "--threads", 1, "--progress", "never", "-q", "--timings", told]
+            words += ["--band-rows", rows] if rows else []
+            run(list(map(str, words)), 900)
+            told = json.loads(told.read_text())
+            pixels = LARGE_SIDE * LARGE_SIDE
+            yield [shape, short(pixels / 1e6, 3), f"{filled:.0%}", f"{rows:,}" if rows else "usual",
+                   *(short(told[stage], 2) for stage in ["read", "engine", "write"]),
+                   f"{told['peak_bytes'] / 1e6:,.0f}", short(told["peak_bytes"] / pixels, 2)]
 
 
 def quality(programs, python, folder, data):

@@ -110,6 +110,26 @@ fn thresholds_and_their_inverse_choose_the_shape() {
 }
 
 #[test]
+fn bands_and_outlines_that_nobody_needs_change_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    let image = png(&folder, "plus.png", &PLUS);
+    for format in ["geojson", "geojsonl", "json", "wkt", "csv", "dxf"] {
+        let words = ["axis", image.to_str().unwrap(), "--to", format];
+        let usual = medial(&words);
+        assert_eq!(usual.status, Some(0), "{format}: {}", usual.errors);
+        assert!(usual.text().len() > 100, "{format}");
+        // To count vertices the outline is needed.
+        for more in [&["--band-rows", "2"][..], &["--max-vertices", "1000"]] {
+            let run = medial(&[&words[..], more].concat());
+            assert_eq!(run.text(), usual.text(), "{format} {more:?}");
+        }
+    }
+    let run = medial(&["axis", image.to_str().unwrap(), "--max-vertices", "11"]);
+    assert_eq!(run.status, Some(1), "{}", run.errors);
+    assert!(run.errors.contains("12 vertices"), "{}", run.errors);
+}
+
+#[test]
 fn every_operation_takes_images() {
     let folder = tempfile::tempdir().unwrap();
     let image = png(&folder, "plus.png", &PLUS);

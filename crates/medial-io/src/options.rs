@@ -15,6 +15,8 @@ pub struct ReadOptions {
     pub threshold: Option<f64>,
     /// Whether those that are not above it are the shape instead.
     pub invert: bool,
+    /// Whether images come as masks alone, without the polygons of their outlines, which take much more memory.
+    pub masks_alone: bool,
     /// Fonts for the text of drawings.
     pub fonts: Fonts,
 }

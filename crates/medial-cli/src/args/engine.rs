@@ -4,6 +4,7 @@ use clap::Args;
 use medial::axis::Engine;
 use medial::engine::{Burning, RidgeSearch, RidgeThinning};
 use medial_io::Feature;
+use std::num::NonZeroU32;
 
 /// Who computes an axis, for commands that know sampled ones.
 #[derive(Debug, Args)]
@@ -16,6 +17,10 @@ pub struct ChosenEngine {
     /// default a thousandth of the longer side of the feature's box
     #[arg(long, value_name = "SIZE", value_parser = positive, allow_negative_numbers = true)]
     pub cell: Option<f64>,
+    /// Rows of an image whose distances raster_transform and brushfire hold at a time, to save memory; by
+    /// default all of them, or of images above 67 megapixels so many that they are 17
+    #[arg(long, value_name = "ROWS")]
+    pub band_rows: Option<NonZeroU32>,
     /// How ridge_following finds the two nearest elements: tree, sorted (as in the report), six_vertices (which
     /// may miss one)
     #[arg(long, value_name = "NAME", value_parser = named::<RidgeSearch>)]
@@ -44,6 +49,11 @@ impl ChosenEngine {
             }
             None => Ok(()),
         }
+    }
+
+    /// The engine for images.
+    pub fn of_images(&self) -> Engine {
+        self.engine.unwrap_or(Engine::RasterTransform)
     }
 
     /// The engine for a feature.

@@ -17,6 +17,7 @@ use medial::raster::default_cell;
 use medial_io::svg::Options;
 use medial_io::{Drawing, Feature, Format, csv};
 use std::io::IsTerminal as _;
+use std::num::NonZeroU32;
 use std::path::Path;
 
 /// `medial prune`: `medial axis`, told what to remove.
@@ -59,6 +60,7 @@ fn run_on(args: &AxisArgs, documents: Documents) -> Result<Status, Failure> {
             Line::Branch => Joining::Branches,
         }),
     };
+    run.masks_alone = asks_for_masks_alone(args, format);
     let input = run.open_with(&args.input, documents)?;
     let layer = timed(&mut run.stages.read, || input.layer())?;
     let picture = Options {
@@ -135,6 +137,17 @@ fn run_on(args: &AxisArgs, documents: Documents) -> Result<Status, Failure> {
     Ok(status)
 }
 
+/// Whether the outline of an image is needed for nothing.
+fn asks_for_masks_alone(args: &AxisArgs, format: Format) -> bool {
+    let engine = args.engine.of_images();
+    !engine.is_exact()
+        && args.engine.cell.is_none()
+        && args.region.side == Sides::Interior
+        && !args.pruning.removes(&Feature::default(), engine)
+        && args.measures.is_empty()
+        && !matches!(format, Format::Svg | Format::Png)
+}
+
 /// What is left of an axis, with what was asked to be measured.
 fn measured(
     args: &AxisArgs,
@@ -187,7 +200,8 @@ pub fn traced(
         (_, cell) => cell.unwrap_or_else(|| default_cell(domain)),
     };
     let residual = pruning.residual(cell);
-    let options = engine::Options { cell: Some(cell), residual, ..*options };
+    let band_rows = chosen.band_rows.map(NonZeroU32::get);
+    let options = engine::Options { cell: Some(cell), residual, band_rows, ..*options };
     let sides = region.side.all().iter();
     let axis = |&side| sampled(chosen, region, side, feature, domain, engine, &options);
     sides.map(axis).collect::<Result<_, _>>().map_err(|error| Entry::unfinished(&error))

@@ -11,6 +11,8 @@ use crate::progress::Progress;
 use crate::report::{self, Entry, FeatureReport, Report};
 use crate::timings::{self, Stages, timed};
 use medial::domain::Domain;
+use medial::geom::Point;
+use medial::raster::Grid;
 use medial_io::{Error, Feature, FeatureError, Json, Layer, Part, ReadOptions, geojson};
 use std::num::NonZeroUsize;
 use std::ops::ControlFlow;
@@ -27,6 +29,8 @@ pub struct Run<'a> {
     pub stages: Stages,
     /// Largest distance between a curve of the input and its edges.
     pub tolerance: Option<f64>,
+    /// Whether the command asks nothing of images but their masks.
+    pub masks_alone: bool,
     report: Option<Output>,
     timings: Option<Output>,
 }
@@ -57,6 +61,7 @@ impl<'a> Run<'a> {
             start: Instant::now(),
             stages: Stages::default(),
             tolerance: None,
+            masks_alone: false,
             report: create(&common.report)?,
             timings: create(&common.timings)?,
         })
@@ -81,6 +86,8 @@ impl<'a> Run<'a> {
             text: text.clone(),
             threshold: *threshold,
             invert: *invert,
+            // Vertices are counted in outlines.
+            masks_alone: self.masks_alone && self.common.max_vertices.is_none(),
             ..ReadOptions::default()
         };
         timed(&mut self.stages.read, || Opened::new(path, *from, options, font))
@@ -344,18 +351,28 @@ fn valid(feature: &Feature, common: &Common, time: &mut Duration) -> Result<Doma
         let why = format!("is {found}; only polygons have a medial axis, leave it out");
         return Err(Entry::refused("not_polygon", why));
     }
-    if feature.polygons.is_empty() {
+    // Where nobody asks for the outline of a mask, its box stands for it.
+    let mask = feature.mask.as_ref().filter(|mask| mask.count() > 0);
+    let mask_box = mask.filter(|_| feature.polygons.is_empty()).map(|mask| box_of(mask.grid()));
+    let polygons = mask_box.as_deref().unwrap_or(&feature.polygons);
+    if polygons.is_empty() {
         let why = format!("is {} without points; leave it out", feature.geometry);
         return Err(Entry::refused("empty", why));
     }
-    let n_vertices: usize = feature.polygons.iter().flatten().map(Vec::len).sum();
+    let n_vertices: usize = polygons.iter().flatten().map(Vec::len).sum();
     if let Some(most) = common.max_vertices.filter(|&most| n_vertices > most) {
         let why = format!("has {n_vertices} vertices; --max-vertices allows {most}");
         return Err(Entry::refused("max_vertices", why));
     }
     let options = common.domain_options(feature.fill);
-    timed(time, || Domain::from_polygons(&feature.polygons, &options))
+    timed(time, || Domain::from_polygons(polygons, &options))
         .map_err(|error| Entry::invalid(&error))
+}
+
+/// The rectangle of all cells.
+fn box_of(grid: &Grid) -> Vec<Vec<Vec<Point>>> {
+    let corners = [(0, 0), (grid.columns, 0), (grid.columns, grid.rows), (0, grid.rows)];
+    vec![vec![corners.map(|(column, row)| grid.corner(column, row)).to_vec()]]
 }
 
 /// Prints and reports what happened to a feature; gives its result.

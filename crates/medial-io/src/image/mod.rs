@@ -7,6 +7,9 @@
 //! is the middle between the least and the greatest value, so a mask of two values needs none; a mask of one
 //! value is inside if that is above 0.
 //!
+//! Rows are decoded one after the other and kept as bits, so a large image takes little more memory than its
+//! file and its mask. An image without a threshold is decoded twice if it has many pixels.
+//!
 //! Coordinates are those of the georeference. Without one they are pixels from the upper left
 //! corner, x to the right and y upwards, so that y is the negative of rows, as with drawings.
 
@@ -16,19 +19,28 @@ mod tiff;
 use crate::{Crs, Error, Feature, Format, Layer, ReadOptions};
 use medial::geom::Point;
 use medial::raster::{Grid, Mask, outline};
+use std::ops::Range;
 use std::sync::Arc;
 
-/// A picture of one value a pixel.
-pub(crate) struct Picture {
-    pub columns: u32,
-    pub rows: u32,
-    /// Row by row; not a number where there is no data.
-    pub values: Values,
-    pub place: Option<Place>,
+/// An image of one value a pixel, which is decoded some rows after the others.
+trait Image {
+    fn header(&self) -> &Header;
+
+    /// Decodes all rows: gives the number of the first one and the values of some whole ones, not a number
+    /// where there is no data.
+    fn decode(self: Box<Self>, take: &mut dyn FnMut(u32, Values)) -> Result<(), Error>;
+}
+
+/// What an image says of itself.
+#[derive(Clone, Debug)]
+struct Header {
+    columns: u32,
+    rows: u32,
+    place: Option<Place>,
 }
 
 /// Values of pixels.
-pub(crate) enum Values {
+enum Values {
     Bytes(Vec<u8>),
     Words(Vec<u16>),
     Numbers(Vec<f32>),
@@ -38,10 +50,10 @@ pub(crate) enum Values {
 
 /// Where a picture lies.
 #[derive(Clone, Debug)]
-pub(crate) struct Place {
-    pub origin: Point,
-    pub cell: [f64; 2],
-    pub crs: Option<Crs>,
+struct Place {
+    origin: Point,
+    cell: [f64; 2],
+    crs: Option<Crs>,
 }
 
 impl Values {
@@ -74,10 +86,22 @@ impl Values {
         }
     }
 
-    /// Sets the cells of a row whose values are above a threshold, or not above it.
-    fn fill(&self, mask: &mut Mask, row: u32, threshold: f64, inverted: bool) {
+    /// Sets the cells, from a row on, whose values are above a threshold, or not above it.
+    fn fill(&self, mask: &mut Mask, first: u32, threshold: f64, inverted: bool) {
         let columns = mask.grid().columns as usize;
-        let span = row as usize * columns..(row as usize + 1) * columns;
+        for (k, row) in (0..self.len() / columns.max(1)).zip(first..) {
+            self.fill_row(mask, row, k * columns..(k + 1) * columns, threshold, inverted);
+        }
+    }
+
+    fn fill_row(
+        &self,
+        mask: &mut Mask,
+        row: u32,
+        span: Range<usize>,
+        threshold: f64,
+        inverted: bool,
+    ) {
         fn put<T: Copy + Into<f64>>(
             mask: &mut Mask,
             row: u32,
@@ -112,39 +136,65 @@ pub fn read_mask(
     bytes: &[u8],
     options: &ReadOptions,
 ) -> Result<(Mask, Option<Crs>), Error> {
-    let picture = match format {
-        Format::Png => png::read(bytes),
-        Format::Tiff => tiff::read(bytes),
-        other => Err(Error::Unreadable { format: other }),
-    }?;
-    let Picture { columns, rows, values, place } = picture;
-    if values.len() as u64 != u64::from(columns) * u64::from(rows) {
-        let why = format!("the image has {} values for {columns} by {rows} pixels", values.len());
-        return Err(Error::File { why });
-    }
+    /// Values of so many pixels at most are kept until the threshold is known.
+    const KEPT: u64 = 1 << 24;
+    let Header { columns, rows, place } = open(format, bytes)?.header().clone();
     let (grid, crs) = match place {
         Some(Place { origin, cell, crs }) => (Grid { origin, cell, columns, rows }, crs),
         None => (Grid::of_image(columns, rows), None),
     };
     let mut mask = Mask::empty(grid).map_err(|error| Error::File { why: error.to_string() })?;
-    let threshold = options.threshold.or_else(|| {
-        let (low, high) = values.range()?;
-        Some(if low < high { 0.5 * (low + high) } else { 0.0 })
-    });
-    if let Some(threshold) = threshold {
-        (0..rows).for_each(|row| values.fill(&mut mask, row, threshold, options.invert));
+    let mut fill = |first: u32, values: &Values, threshold: f64| {
+        values.fill(&mut mask, first, threshold, options.invert);
+    };
+    let mut n_values = 0;
+    let is_kept = options.threshold.is_none() && grid.n_cells() <= KEPT;
+    let mut kept = Vec::new();
+    let mut range: Option<(f64, f64)> = None;
+    open(format, bytes)?.decode(&mut |first, values| {
+        n_values += values.len() as u64;
+        if let Some(threshold) = options.threshold {
+            return fill(first, &values, threshold);
+        }
+        if let Some((low, high)) = values.range() {
+            let (least, greatest) = range.unwrap_or((low, high));
+            range = Some((least.min(low), greatest.max(high)));
+        }
+        if is_kept {
+            kept.push((first, values));
+        }
+    })?;
+    if n_values != grid.n_cells() {
+        let why = format!("the image has {n_values} values for {columns} by {rows} pixels");
+        return Err(Error::File { why });
+    }
+    if let Some((low, high)) = range {
+        let threshold = if low < high { 0.5 * (low + high) } else { 0.0 };
+        if is_kept {
+            kept.iter().for_each(|(first, values)| fill(*first, values, threshold));
+        } else {
+            open(format, bytes)?.decode(&mut |first, values| fill(first, &values, threshold))?;
+        }
     }
     Ok((mask, crs))
 }
 
-/// Reads an image as one feature.
+fn open<'b>(format: Format, bytes: &'b [u8]) -> Result<Box<dyn Image + 'b>, Error> {
+    match format {
+        Format::Png => png::open(bytes),
+        Format::Tiff => tiff::open(bytes),
+        other => Err(Error::Unreadable { format: other }),
+    }
+}
+
+/// Reads an image as one feature, whose polygons are the outline of its mask, unless masks are to come alone.
 ///
 /// # Errors
 /// As [`read_mask`].
 pub fn read<'a>(format: Format, bytes: &[u8], options: &ReadOptions) -> Result<Layer<'a>, Error> {
     let (mask, crs) = read_mask(format, bytes, options)?;
     let feature = Feature {
-        polygons: outline(&mask),
+        polygons: if options.masks_alone { Vec::new() } else { outline(&mask) },
         geometry: "a mask".to_owned(),
         polygonal: true,
         mask: Some(Arc::new(mask)),

@@ -164,3 +164,77 @@ fn palettes_of_tiff_count_by_their_brightness() {
         assert_eq!(drawn(Format::Tiff, &bytes, &ReadOptions::default()), ["#.#"], "{is_little}");
     }
 }
+
+/// A TIFF of grey bytes in tiles of 16 by 16, of which those at the right and at the bottom stick out.
+fn tiled_tiff(columns: u32, rows: u32, value: impl Fn(u32, u32) -> u8) -> Vec<u8> {
+    const TILE: u32 = 16;
+    let (across, down) = (columns.div_ceil(TILE), rows.div_ceil(TILE));
+    let n = across * down;
+    let head = 8 + 2 + 12 * 10 + 4;
+    let (offsets, counts) = (head, head + 4 * n);
+    let data = counts + 4 * n;
+    let entries: [(u16, u16, u32, u32); 10] = [
+        (256, 4, 1, columns),
+        (257, 4, 1, rows),
+        (258, 3, 1, 8),
+        (259, 3, 1, 1),
+        (262, 3, 1, 1),
+        (277, 3, 1, 1),
+        (322, 4, 1, TILE),
+        (323, 4, 1, TILE),
+        (324, 4, n, if n == 1 { data } else { offsets }),
+        (325, 4, n, if n == 1 { TILE * TILE } else { counts }),
+    ];
+    let mut bytes = b"II\x2a\0\x08\0\0\0".to_vec();
+    bytes.extend(10_u16.to_le_bytes());
+    for (tag, kind, count, value) in entries {
+        bytes.extend([tag.to_le_bytes(), kind.to_le_bytes()].concat());
+        bytes.extend([count.to_le_bytes(), value.to_le_bytes()].concat());
+    }
+    bytes.extend(0_u32.to_le_bytes());
+    (0..n).for_each(|k| bytes.extend((data + k * TILE * TILE).to_le_bytes()));
+    (0..n).for_each(|_| bytes.extend((TILE * TILE).to_le_bytes()));
+    for (row, column) in (0..down).flat_map(|row| (0..across).map(move |column| (row, column))) {
+        for (y, x) in (0..TILE).flat_map(|y| (0..TILE).map(move |x| (y, x))) {
+            let (x, y) = (column * TILE + x, row * TILE + y);
+            bytes.push(if x < columns && y < rows { value(x, y) } else { 77 });
+        }
+    }
+    bytes
+}
+
+#[test]
+fn tiles_are_put_together_row_by_row() {
+    for (columns, rows) in [(16, 16), (5, 3), (37, 33), (16, 50), (50, 16)] {
+        let bytes = tiled_tiff(columns, rows, |x, y| if (x * 7 + y * 3) % 5 < 2 { 9 } else { 1 });
+        let drawn = drawn(Format::Tiff, &bytes, &ReadOptions::default());
+        let cell = |x, y| if (x * 7 + y * 3) % 5 < 2 { '#' } else { '.' };
+        let expected: Vec<String> =
+            (0..rows).map(|y| (0..columns).map(|x| cell(x, y)).collect()).collect();
+        assert_eq!(drawn, expected, "{columns} by {rows}");
+    }
+}
+
+#[test]
+fn strips_are_put_together_row_by_row() {
+    let values: Vec<u8> = (0..23 * 31).map(|k| (k * 37 % 251) as u8).collect();
+    let mut bytes = Cursor::new(Vec::new());
+    let mut encoder = TiffEncoder::new(&mut bytes).unwrap();
+    let mut image = encoder.new_image::<colortype::Gray8>(23, 31).unwrap();
+    image.rows_per_strip(4).unwrap();
+    image.write_data(&values).unwrap();
+    let options = ReadOptions { threshold: Some(100.0), ..ReadOptions::default() };
+    let (mask, _) = read_mask(Format::Tiff, &bytes.into_inner(), &options).unwrap();
+    for (k, &value) in (0..).zip(&values) {
+        assert_eq!(mask.get(k % 23, k / 23), value > 100, "{k}");
+    }
+}
+
+#[test]
+fn masks_may_come_without_their_outlines() {
+    let bytes = tiled_tiff(20, 20, |x, y| u8::from(x > 3 && y > 4));
+    let options = ReadOptions { masks_alone: true, ..ReadOptions::default() };
+    let feature = read(Format::Tiff, &bytes, &options).unwrap().next().unwrap().unwrap();
+    assert!(feature.polygons.is_empty() && feature.polygonal);
+    assert_eq!(feature.mask.map(|mask| mask.count()), Some(16 * 15));
+}

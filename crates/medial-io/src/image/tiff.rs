@@ -1,6 +1,7 @@
-use super::{Picture, Place, Values, brightness, flattened, most_bytes};
+use super::{Header, Image, Place, Values, brightness, flattened, most_bytes};
 use crate::{Crs, Error};
 use medial::geom::Point;
+use std::borrow::Cow;
 use std::io::Cursor;
 use tiff::decoder::{Decoder, DecodingResult, Limits};
 use tiff::tags::Tag;
@@ -21,29 +22,50 @@ const RASTER_KEY: u16 = 1025;
 /// The code for a system that the file describes in another way.
 const USER_DEFINED: u16 = 32_767;
 
-type Source<'a> = Decoder<Cursor<&'a [u8]>>;
+type Source<'a> = Decoder<Cursor<Cow<'a, [u8]>>>;
 
-/// Reads the first image of a TIFF file: 1 to 64 bits, whole numbers or floating-point ones; of several bands
-/// that are no colours the first.
-pub(super) fn read(bytes: &[u8]) -> Result<Picture, Error> {
-    let wrong = |error: TiffError| {
-        let why = format!("the image cannot be read: {error}; save it again as TIFF");
-        Error::File { why }
-    };
+/// The first image of a TIFF file: 1 to 64 bits, whole numbers or floating-point ones; of several bands that
+/// are no colours the first.
+struct Tiff<'b> {
+    decoder: Source<'b>,
+    header: Header,
+    kind: Kind,
+}
+
+/// What samples mean.
+struct Kind {
+    /// Bits of a sample.
+    bits: u8,
+    /// Samples of a pixel.
+    each: usize,
+    /// Those of them that make its colour.
+    n_colours: usize,
+    has_alpha: bool,
+    palette: Option<Vec<f32>>,
+    no_data: Option<f64>,
+}
+
+fn wrong(error: TiffError) -> Error {
+    let why = format!("the image cannot be read: {error}; save it again as TIFF");
+    Error::File { why }
+}
+
+/// Opens a TIFF image.
+pub(super) fn open(bytes: &[u8]) -> Result<Box<dyn Image + '_>, Error> {
     let mut limits = Limits::default();
     limits.decoding_buffer_size = most_bytes(bytes.len());
     limits.intermediate_buffer_size = most_bytes(bytes.len());
     // The library reads no palettes: it is given the numbers of colours as if they were values.
     let as_grey = without_palette(bytes);
-    let source = as_grey.as_deref().unwrap_or(bytes);
+    let has_palette = as_grey.is_some();
+    let source = as_grey.map_or(Cow::Borrowed(bytes), Cow::Owned);
     let mut decoder = Decoder::new(Cursor::new(source)).map_err(wrong)?.with_limits(limits);
     let (columns, rows) = decoder.dimensions().map_err(wrong)?;
     let colours = decoder.colortype().map_err(wrong)?;
     let place = place(&mut decoder)?;
     let no_data = decoder.get_tag_ascii_string(NO_DATA).ok();
     let no_data = no_data.and_then(|text| text.trim_matches(['\0', ' ']).parse::<f64>().ok());
-    let palette = as_grey.as_ref().map(|_| palette(&mut decoder)).transpose().map_err(wrong)?;
-    let samples = decoder.read_image().map_err(wrong)?;
+    let palette = has_palette.then(|| palette(&mut decoder)).transpose().map_err(wrong)?;
     let bits = colours.bit_depth();
     let (each, n_colours, has_alpha) = match colours {
         ColorType::Gray(_) => (1, 1, false),
@@ -57,49 +79,142 @@ pub(super) fn read(bytes: &[u8]) -> Result<Picture, Error> {
             return Err(Error::File { why });
         }
     };
-    let samples = match samples {
-        DecodingResult::U8(samples) if bits < 8 => {
-            DecodingResult::U8(unpacked(&samples, bits, columns as usize * each, rows as usize))
+    let bits_each = (each * usize::from(bits)) as u64;
+    let in_memory = (u64::from(columns) * u64::from(rows)).saturating_mul(bits_each) / 8;
+    if in_memory > most_bytes(bytes.len()) as u64 {
+        let why = format!("{columns} by {rows} pixels are too many; cut the image into tiles");
+        return Err(Error::File { why });
+    }
+    let header = Header { columns, rows, place };
+    let kind = Kind { bits, each, n_colours, has_alpha, palette, no_data };
+    Ok(Box::new(Tiff { decoder, header, kind }))
+}
+
+impl Image for Tiff<'_> {
+    fn header(&self) -> &Header {
+        &self.header
+    }
+
+    fn decode(mut self: Box<Self>, take: &mut dyn FnMut(u32, Values)) -> Result<(), Error> {
+        let Header { columns, rows, .. } = self.header;
+        /// Tag 284: samples of a pixel one after the other, or one plane after the other.
+        const PLANES: u16 = 2;
+        let planes: Option<u16> =
+            self.decoder.find_tag_unsigned(Tag::PlanarConfiguration).map_err(wrong)?;
+        if planes == Some(PLANES) || columns == 0 || rows == 0 {
+            let samples = self.decoder.read_image().map_err(wrong)?;
+            take(0, self.kind.values(samples, columns, rows));
+            return Ok(());
         }
-        samples => samples,
-    };
-    // Transparency by its greatest value; that of floating-point samples is 1.
-    let alpha = |greatest: f64| has_alpha.then_some(greatest);
-    let values = match samples {
-        DecodingResult::U8(samples) => match palette {
-            Some(palette) => {
-                let colour = |&k: &u8| palette.get(usize::from(k)).copied().unwrap_or(f32::NAN);
-                Values::Numbers(samples.iter().map(colour).collect())
+        // Strips are as wide as the image, tiles are not.
+        let (width, height) = self.decoder.chunk_dimensions();
+        if width == 0 || height == 0 {
+            let why = "the image has tiles without pixels; save it again as TIFF";
+            return Err(Error::File { why: why.to_owned() });
+        }
+        let across = columns.div_ceil(width);
+        for (row, first) in (0..rows).step_by(height as usize).enumerate() {
+            let n_rows = height.min(rows - first);
+            let mut whole: Option<Values> = None;
+            for column in 0..across {
+                let chunk = row as u32 * across + column;
+                let (wide, high) = self.decoder.chunk_data_dimensions(chunk);
+                let samples = self.decoder.read_chunk(chunk).map_err(wrong)?;
+                let values = self.kind.values(samples, wide, high);
+                if across == 1 {
+                    whole = Some(values);
+                } else {
+                    let n = columns as usize * n_rows as usize;
+                    let whole = whole.get_or_insert_with(|| values.blank(n));
+                    let from = (column * width) as usize;
+                    whole.paste(&values, columns as usize, from, wide as usize);
+                }
             }
-            None if n_colours == 4 => Values::Numbers(
-                samples
-                    .chunks_exact(4)
-                    .map(|cmyk| uninked([cmyk[0], cmyk[1], cmyk[2], cmyk[3]]))
-                    .collect(),
-            ),
-            None if each == 1 => Values::Bytes(samples),
-            None => flattened(&samples, each, n_colours, alpha(255.0)),
-        },
-        DecodingResult::U16(samples) if each == 1 => Values::Words(samples),
-        DecodingResult::U16(samples) => flattened(&samples, each, n_colours, alpha(65_535.0)),
-        DecodingResult::U32(samples) => doubles(samples.chunks_exact(each), n_colours, f64::from),
-        DecodingResult::I8(samples) => flattened(&samples, each, n_colours, alpha(127.0)),
-        DecodingResult::I16(samples) => flattened(&samples, each, n_colours, alpha(32_767.0)),
-        DecodingResult::I32(samples) => doubles(samples.chunks_exact(each), n_colours, f64::from),
-        DecodingResult::U64(samples) => {
-            doubles(samples.chunks_exact(each), n_colours, |v| v as f64)
+            whole.into_iter().for_each(|values| take(first, values));
         }
-        DecodingResult::I64(samples) => {
-            doubles(samples.chunks_exact(each), n_colours, |v| v as f64)
+        Ok(())
+    }
+}
+
+impl Kind {
+    /// The values of so many pixels.
+    fn values(&self, samples: DecodingResult, columns: u32, rows: u32) -> Values {
+        let Self { bits, each, n_colours, has_alpha, .. } = *self;
+        let samples = match samples {
+            DecodingResult::U8(samples) if bits < 8 => {
+                DecodingResult::U8(unpacked(&samples, bits, columns as usize * each, rows as usize))
+            }
+            samples => samples,
+        };
+        // Transparency by its greatest value; that of floating-point samples is 1.
+        let alpha = |greatest: f64| has_alpha.then_some(greatest);
+        let values = match samples {
+            DecodingResult::U8(samples) => match &self.palette {
+                Some(palette) => {
+                    let colour = |&k: &u8| palette.get(usize::from(k)).copied().unwrap_or(f32::NAN);
+                    Values::Numbers(samples.iter().map(colour).collect())
+                }
+                None if n_colours == 4 => Values::Numbers(
+                    samples
+                        .chunks_exact(4)
+                        .map(|cmyk| uninked([cmyk[0], cmyk[1], cmyk[2], cmyk[3]]))
+                        .collect(),
+                ),
+                None if each == 1 => Values::Bytes(samples),
+                None => flattened(&samples, each, n_colours, alpha(255.0)),
+            },
+            DecodingResult::U16(samples) if each == 1 => Values::Words(samples),
+            DecodingResult::U16(samples) => flattened(&samples, each, n_colours, alpha(65_535.0)),
+            DecodingResult::U32(samples) => {
+                doubles(samples.chunks_exact(each), n_colours, f64::from)
+            }
+            DecodingResult::I8(samples) => flattened(&samples, each, n_colours, alpha(127.0)),
+            DecodingResult::I16(samples) => flattened(&samples, each, n_colours, alpha(32_767.0)),
+            DecodingResult::I32(samples) => {
+                doubles(samples.chunks_exact(each), n_colours, f64::from)
+            }
+            DecodingResult::U64(samples) => {
+                doubles(samples.chunks_exact(each), n_colours, |v| v as f64)
+            }
+            DecodingResult::I64(samples) => {
+                doubles(samples.chunks_exact(each), n_colours, |v| v as f64)
+            }
+            DecodingResult::F16(samples) => {
+                let samples: Vec<f32> = samples.into_iter().map(f32::from).collect();
+                flattened(&samples, each, n_colours, alpha(1.0))
+            }
+            DecodingResult::F32(samples) => flattened(&samples, each, n_colours, alpha(1.0)),
+            DecodingResult::F64(samples) => doubles(samples.chunks_exact(each), n_colours, |v| v),
+        };
+        without(values, self.no_data)
+    }
+}
+
+impl Values {
+    /// So many values of the same kind.
+    fn blank(&self, n: usize) -> Self {
+        match self {
+            Self::Bytes(_) => Self::Bytes(vec![0; n]),
+            Self::Words(_) => Self::Words(vec![0; n]),
+            Self::Numbers(_) => Self::Numbers(vec![0.0; n]),
+            Self::Doubles(_) => Self::Doubles(vec![0.0; n]),
         }
-        DecodingResult::F16(samples) => {
-            let samples: Vec<f32> = samples.into_iter().map(f32::from).collect();
-            flattened(&samples, each, n_colours, alpha(1.0))
+    }
+
+    /// Takes over the rows of a tile, which starts at a column and is so wide.
+    fn paste(&mut self, tile: &Self, columns: usize, from: usize, width: usize) {
+        fn of<T: Copy>(whole: &mut [T], tile: &[T], columns: usize, from: usize, width: usize) {
+            let rows = whole.chunks_exact_mut(columns).zip(tile.chunks_exact(width.max(1)));
+            rows.for_each(|(row, tile)| row[from..from + width].copy_from_slice(tile));
         }
-        DecodingResult::F32(samples) => flattened(&samples, each, n_colours, alpha(1.0)),
-        DecodingResult::F64(samples) => doubles(samples.chunks_exact(each), n_colours, |v| v),
-    };
-    Ok(Picture { columns, rows, values: without(values, no_data), place })
+        match (self, tile) {
+            (Self::Bytes(whole), Self::Bytes(tile)) => of(whole, tile, columns, from, width),
+            (Self::Words(whole), Self::Words(tile)) => of(whole, tile, columns, from, width),
+            (Self::Numbers(whole), Self::Numbers(tile)) => of(whole, tile, columns, from, width),
+            (Self::Doubles(whole), Self::Doubles(tile)) => of(whole, tile, columns, from, width),
+            _ => {}
+        }
+    }
 }
 
 /// The first value of each pixel, or its brightness, in double precision.
