@@ -143,36 +143,61 @@ impl Thinning {
 /// Takes from what is left those cells that are neither ends nor needed to hold the rest together, the worst
 /// first: those of the least residual, then of the least distance.
 pub(super) fn thin_further(thinning: Thinning, medial: &[MedialCell]) -> Bits {
-    let Thinning { mut shape, left, .. } = thinning;
-    let quality = |cell: u32| {
-        let place = |medial: &MedialCell| packed(medial.x as i32, medial.y as i32);
-        let (residual, squared) = match medial.binary_search_by_key(&cell, place) {
-            Ok(found) => (medial[found].residual, medial[found].squared),
-            Err(_) => (0.0, left.squared(cell)),
-        };
-        // Neither is negative, so their bits are in their order.
+    let Thinning { mut shape, mut waits, left, .. } = thinning;
+    // Neither is negative, so their bits are in their order.
+    let quality = |residual: f32, squared: f32| {
         u64::from(residual.to_bits()) << 32 | u64::from(squared.to_bits())
     };
-    // What cannot go may be able to once a neighbour is gone.
-    let mut waiting = BinaryHeap::new();
+    let place = |medial: &MedialCell| packed(medial.x as i32, medial.y as i32);
+    let quality_of = |cell: u32| match medial.binary_search_by_key(&cell, place) {
+        Ok(found) => quality(medial[found].residual, medial[found].squared),
+        Err(_) => quality(0.0, left.squared(cell)),
+    };
+    // What can go at once is put into order at once; both lists are row by row.
+    let mut first: Vec<(u64, u32)> = Vec::new();
+    let (mut next_medial, mut next_left) = (medial.iter().peekable(), left.0.iter().peekable());
     for y in 0..shape.rows() {
-        let may_go = |x: &u32| can_go(shape.window(*x as i32, y as i32));
-        for x in shape.ones(y).filter(may_go) {
+        for x in shape.ones(y).filter(|&x| can_go(shape.window(x as i32, y as i32))) {
             let cell = packed(x as i32, y as i32);
-            waiting.push(Reverse((quality(cell), cell)));
+            waits.set(x as i32, y as i32);
+            while next_medial.next_if(|medial| place(medial) < cell).is_some() {}
+            while next_left.next_if(|&&(at, _)| at < cell).is_some() {}
+            let quality = match (next_medial.peek(), next_left.peek()) {
+                (Some(medial), _) if place(medial) == cell => {
+                    quality(medial.residual, medial.squared)
+                }
+                (_, Some(&&(at, squared))) if at == cell => quality(0.0, squared),
+                _ => quality(0.0, 0.0),
+            };
+            first.push((quality, cell));
         }
     }
-    while let Some(Reverse((_, cell))) = waiting.pop() {
+    first.sort_unstable();
+    // What cannot go in its turn may be able to once a neighbour is gone.
+    let mut again = BinaryHeap::new();
+    let mut first = first.into_iter().peekable();
+    loop {
+        let is_again = match (first.peek(), again.peek()) {
+            (Some(first), Some(Reverse(again))) => again < first,
+            (None, Some(_)) => true,
+            (_, None) => false,
+        };
+        let next = if is_again { again.pop().map(|Reverse(next)| next) } else { first.next() };
+        let Some((_, cell)) = next else { break };
         let (x, y) = unpacked(cell);
+        waits.clear(x, y);
         let window = shape.window(x, y);
-        if !shape.get(x, y) || !can_go(window) {
+        if !can_go(window) {
             continue;
         }
         shape.clear(x, y);
-        for (_, dx, dy) in NEIGHBOURS.into_iter().filter(|(bit, ..)| window & bit != 0) {
-            if can_go(shape.window(x + dx, y + dy)) {
-                let cell = packed(x + dx, y + dy);
-                waiting.push(Reverse((quality(cell), cell)));
+        let free = window & WINDOW_RING & !waits.window(x, y);
+        for (_, dx, dy) in NEIGHBOURS.into_iter().filter(|(bit, ..)| free & bit != 0) {
+            let (x, y) = (x + dx, y + dy);
+            if can_go(shape.window(x, y)) {
+                let cell = packed(x, y);
+                waits.set(x, y);
+                again.push(Reverse((quality_of(cell), cell)));
             }
         }
     }
