@@ -145,29 +145,60 @@ impl KeypointTable {
         }
     }
 
-    /// Adds a keypoint of another table as one of a kind, with other numbers of its governors in the same
-    /// order.
+    /// A table of some of these keypoints in their order, with room for so many and so many more; their kinds
+    /// depend on their numbers and kinds here. Governors keep their order, and get other numbers if such are
+    /// given.
+    ///
+    /// What is kept cannot be foreseen, so nothing branches on it.
     #[inline]
-    pub fn push_of(
-        &mut self,
-        other: &Self,
-        keypoint: u32,
-        kind: KeypointKind,
-        site: impl Fn(u32) -> u32,
-    ) {
-        let list = match other.lists[keypoint as usize] {
-            [a, b, TWO] => [site(a), site(b), TWO],
-            [first, n, MORE] => {
-                let start = self.more.len() as u32;
-                let governors = &other.more[first as usize..][..n as usize];
-                self.more.extend(governors.iter().map(|&governor| site(governor)));
-                [start, n, MORE]
+    pub fn some(
+        &self,
+        [kept, more]: [usize; 2],
+        is_kept: impl Fn(usize) -> bool,
+        kind: impl Fn(usize, KeypointKind) -> KeypointKind,
+        sites: Option<&[u32]>,
+    ) -> Self {
+        /// Keeps some of the values.
+        #[inline(always)]
+        fn keep<T: Copy>(room: usize, values: impl Iterator<Item = (bool, T)>) -> Vec<T> {
+            let mut some = Vec::with_capacity(room + 1);
+            let mut n = 0;
+            for (is_kept, value) in values {
+                some.push(value);
+                n += usize::from(is_kept);
+                some.truncate(n);
             }
-            list => list.map(site),
-        };
-        self.disks.push(other.disks[keypoint as usize]);
-        self.kinds.push(kind);
-        self.lists.push(list);
+            some
+        }
+        let room = kept + more;
+        let disks = keep(room, self.disks.iter().enumerate().map(|(k, disk)| (is_kept(k), *disk)));
+        let kinds = self.kinds.iter().enumerate().map(|(k, &was)| (is_kept(k), kind(k, was)));
+        let kinds = keep(room, kinds);
+        let lists = self.lists.iter().enumerate().map(|(k, list)| (is_kept(k), *list));
+        let mut table = Self { disks, kinds, lists: keep(room, lists), more: self.more.clone() };
+        if kept < self.disks.len() {
+            table.more.clear();
+            for list in table.lists.iter_mut().filter(|list| list[2] == MORE) {
+                let start = table.more.len() as u32;
+                table.more.extend_from_slice(&self.more[list[0] as usize..][..list[1] as usize]);
+                list[0] = start;
+            }
+        }
+        if let Some(sites) = sites {
+            table.renumber(|site| sites[site as usize]);
+        }
+        table
+    }
+
+    /// Shows all governors of some keypoints, perhaps more than once.
+    #[inline]
+    pub fn show_governors_of(&self, of: impl Fn(usize) -> bool, mut show: impl FnMut(u32)) {
+        for (_, &[a, b, c]) in self.lists.iter().enumerate().filter(|(k, _)| of(*k)) {
+            match c {
+                MORE => self.more[a as usize..][..b as usize].iter().copied().for_each(&mut show),
+                _ => [a, b, if c == TWO { a } else { c }].into_iter().for_each(&mut show),
+            }
+        }
     }
 
     /// Governors of a keypoint, if there is such a keypoint and they are three.

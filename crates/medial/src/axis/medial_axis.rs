@@ -201,16 +201,28 @@ impl MedialAxis {
         self.sites.among(numbers)
     }
 
-    /// Adds a keypoint to a table as one of a kind, with other numbers of its governors in the same order.
+    /// The table of all sites.
+    pub(crate) fn all_sites(&self) -> SiteTable {
+        self.sites.clone()
+    }
+
+    /// A table of some keypoints, with room for so many and so many more: each of a kind that depends on its
+    /// number and its kind here, with its governors in the same order, under other numbers if such are given.
     #[inline]
-    pub(crate) fn copy_keypoint(
+    pub(crate) fn some_keypoints(
         &self,
-        table: &mut KeypointTable,
-        keypoint: u32,
-        kind: KeypointKind,
-        site: impl Fn(u32) -> u32,
-    ) {
-        table.push_of(&self.keypoints, keypoint, kind, site);
+        room: [usize; 2],
+        is_kept: impl Fn(usize) -> bool,
+        kind: impl Fn(usize, KeypointKind) -> KeypointKind,
+        sites: Option<&[u32]>,
+    ) -> KeypointTable {
+        self.keypoints.some(room, is_kept, kind, sites)
+    }
+
+    /// Shows all governors of some keypoints, perhaps more than once.
+    #[inline]
+    pub(crate) fn show_governors(&self, of: impl Fn(usize) -> bool, show: impl FnMut(u32)) {
+        self.keypoints.show_governors_of(of, show);
     }
 
     /// Adds a path to a table between two keypoints, of which the first one is such a copy of that where it

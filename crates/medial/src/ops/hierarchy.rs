@@ -410,15 +410,15 @@ impl<'a> Hierarchy<'a> {
     /// With [`Measure::Excess`] the threshold bounds the error.
     #[must_use]
     pub fn pruned(&self, measure: Measure, threshold: f64) -> Pruned {
-        if measure == Measure::Prominence {
-            return self.without_less_prominent(threshold);
-        }
         let (rest, lost) = self.rest(measure, threshold);
         rest.finish(&self.fire.roots, &lost)
     }
 
     /// What a threshold leaves, and what is lost up to keypoints.
     pub(super) fn rest(&self, measure: Measure, threshold: f64) -> (Rest<'_>, Vec<(u32, f64)>) {
+        if measure == Measure::Prominence {
+            return self.without_less_prominent(threshold);
+        }
         let mut rest = Rest::of(self.axis);
         // What is lost at a keypoint, if that is kept.
         let mut lost: Vec<(u32, f64)> = Vec::new();

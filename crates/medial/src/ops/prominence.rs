@@ -13,7 +13,7 @@
 use super::fire::Way;
 use super::hierarchy::{Hierarchy, Span};
 use super::measure::Measure;
-use super::rest::{Pruned, Rest};
+use super::rest::Rest;
 use crate::axis::crossing;
 
 /// A path, or the part of one up to the root, in the direction in which it burns.
@@ -154,7 +154,7 @@ impl Hierarchy<'_> {
     }
 
     /// What is left if all that is less prominent than a threshold is removed.
-    pub(super) fn without_less_prominent(&self, threshold: f64) -> Pruned {
+    pub(super) fn without_less_prominent(&self, threshold: f64) -> (Rest<'_>, Vec<(u32, f64)>) {
         let mut rest = Rest::of(self.axis);
         let mut lost: Vec<(u32, f64)> = Vec::new();
         let Stretches { first, rooted } = self.stretches(threshold);
@@ -186,6 +186,6 @@ impl Hierarchy<'_> {
             remove(*path, &first[*path as usize], true, Some(*root));
             remove(*path, second, false, Some(*root));
         }
-        rest.finish(&self.fire.roots, &lost)
+        (rest, lost)
     }
 }
