@@ -1,6 +1,5 @@
 //! The keypoints of an axis with their governors: most have three, which are kept side by side.
 
-#[cfg(feature = "parallel")]
 use std::ops::Range;
 
 use super::views::view;
@@ -143,6 +142,40 @@ impl KeypointTable {
                 (list[if place < last { place + 1 } else { 0 }], list[place])
             }
         }
+    }
+
+    /// How many places there are for governors, if all lists stand in one row: three for each keypoint, then
+    /// those of longer lists.
+    pub fn n_places(&self) -> usize {
+        3 * self.lists.len() + self.more.len()
+    }
+
+    /// The places of the governors of a keypoint in that row.
+    #[inline]
+    pub fn places(&self, keypoint: u32) -> Range<usize> {
+        let first = 3 * keypoint as usize;
+        match self.lists[keypoint as usize] {
+            [more, n, MORE] => {
+                let first = 3 * self.lists.len() + more as usize;
+                first..first + n as usize
+            }
+            [_, _, TWO] => first..first + 2,
+            _ => first..first + 3,
+        }
+    }
+
+    /// The place of a governor of a keypoint in that row.
+    #[inline]
+    pub fn place_of(&self, keypoint: u32, governor: u32) -> Option<usize> {
+        let [a, b, c] = self.lists[keypoint as usize];
+        if c == MORE {
+            let place = self.governors(keypoint).iter().position(|&known| known == governor);
+            return place.map(|place| self.places(keypoint).start + place);
+        }
+        // Which of the three it is cannot be foreseen, so nothing branches on it.
+        let place = if b == governor { 1 } else { 2 };
+        let place = if a == governor { 0 } else { place };
+        (place < 2 || c == governor).then_some(3 * keypoint as usize + place)
     }
 
     /// A table of some of these keypoints in their order, with room for so many and so many more; their kinds

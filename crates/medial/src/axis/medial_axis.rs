@@ -1,4 +1,5 @@
 use std::fmt;
+use std::ops::Range;
 
 use super::keypoints::{KeypointTable, Keypoints};
 use super::paths::{PathTable, Paths};
@@ -199,6 +200,23 @@ impl MedialAxis {
     /// A table of those sites whose number is not `u32::MAX`; each gets its number there.
     pub(crate) fn sites_among(&self, numbers: &mut [u32]) -> SiteTable {
         self.sites.among(numbers)
+    }
+
+    /// How many places there are for governors, if the lists of all keypoints stand in one row.
+    pub(crate) fn n_places(&self) -> usize {
+        self.keypoints.n_places()
+    }
+
+    /// The places of the governors of a keypoint in that row.
+    #[inline]
+    pub(crate) fn places(&self, keypoint: u32) -> Range<usize> {
+        self.keypoints.places(keypoint)
+    }
+
+    /// The place of a governor of a keypoint in that row.
+    #[inline]
+    pub(crate) fn place_of(&self, keypoint: u32, governor: u32) -> Option<usize> {
+        self.keypoints.place_of(keypoint, governor)
     }
 
     /// The table of all sites.

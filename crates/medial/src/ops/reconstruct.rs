@@ -71,7 +71,7 @@ pub fn polygons_of(axis: &MedialAxis) -> Result<Vec<Vec<Vec<Point>>>, Reconstruc
         return Err(ReconstructError::Incomplete);
     }
     let mut edges: Vec<Site> =
-        axis.sites().iter().filter(|site| site.kind == SiteKind::Edge).collect();
+        axis.sites().in_order().filter(|site| site.kind == SiteKind::Edge).collect();
     edges.sort_by_key(|e| (e.polygon, e.ring, e.index, e.part));
     let mut polygons: Vec<Vec<Vec<Point>>> = Vec::new();
     for ring in edges.chunk_by(|e, f| (e.polygon, e.ring) == (f.polygon, f.ring)) {
@@ -271,7 +271,7 @@ fn tangent_ring(axis: &MedialAxis, turns: &Turns<'_>, darts: &[u32], step: f64) 
     for (k, &dart) in darts.iter().enumerate() {
         let path = turns.path(dart);
         let before = darts[if k == 0 { darts.len() - 1 } else { k - 1 }];
-        let role = match turns.leaving.of(path.from).len() {
+        let role = match turns.leaving(path.from).count() {
             _ if before == dart ^ 1 => Role::End,
             2 => Role::Normal,
             _ => Role::Branch,
