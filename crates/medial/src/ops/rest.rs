@@ -65,6 +65,12 @@ impl<'a> Rest<'a> {
         self.part(path)[usize::from(!from_start)] = to;
     }
 
+    /// Removes all of a path.
+    #[inline]
+    pub fn remove(&mut self, path: u32) {
+        *self.part(path) = [0.0, 0.0];
+    }
+
     /// What is kept of a path, to be changed.
     #[inline]
     fn part(&mut self, path: u32) -> &mut [f64; 2] {
