@@ -18,6 +18,9 @@ pub(crate) struct KeypointTable {
     more: Vec<u32>,
 }
 
+/// The number of a keypoint of which nothing is left.
+pub(crate) const GONE: u32 = u32::MAX;
+
 /// More than the number of any site.
 const TWO: u32 = u32::MAX;
 const MORE: u32 = u32::MAX - 1;
@@ -178,60 +181,41 @@ impl KeypointTable {
         (place < 2 || c == governor).then_some(3 * keypoint as usize + place)
     }
 
-    /// A table of some of these keypoints in their order, with room for so many and so many more; their kinds
-    /// depend on their numbers and kinds here. Governors keep their order, and get other numbers if such are
-    /// given.
-    ///
-    /// What is kept cannot be foreseen, so nothing branches on it.
+    /// A table of the keypoints of which something is left, in their order, with room for so many and so many
+    /// more. `left` says how much of each is left; its new number takes the place of that, or [`GONE`]. Kinds
+    /// depend on both. All governors are shown, some more than once.
     #[inline]
-    pub fn some(
+    pub fn left(
         &self,
         [kept, more]: [usize; 2],
-        is_kept: impl Fn(usize) -> bool,
-        kind: impl Fn(usize, KeypointKind) -> KeypointKind,
-        sites: Option<&[u32]>,
+        left: &mut [u32],
+        kind: impl Fn(u32, KeypointKind) -> KeypointKind,
+        mut show: impl FnMut(u32),
     ) -> Self {
-        /// Keeps some of the values.
-        #[inline(always)]
-        fn keep<T: Copy>(room: usize, values: impl Iterator<Item = (bool, T)>) -> Vec<T> {
-            let mut some = Vec::with_capacity(room + 1);
-            let mut n = 0;
-            for (is_kept, value) in values {
-                some.push(value);
-                n += usize::from(is_kept);
-                some.truncate(n);
+        let mut table = Self::with_room(kept + more);
+        let mut number = 0;
+        let all = left.iter_mut().zip(&self.disks).zip(self.kinds.iter().zip(&self.lists));
+        for ((left, disk), (&was, list)) in all {
+            if *left == 0 {
+                *left = GONE;
+                continue;
             }
-            some
-        }
-        let room = kept + more;
-        let disks = keep(room, self.disks.iter().enumerate().map(|(k, disk)| (is_kept(k), *disk)));
-        let kinds = self.kinds.iter().enumerate().map(|(k, &was)| (is_kept(k), kind(k, was)));
-        let kinds = keep(room, kinds);
-        let lists = self.lists.iter().enumerate().map(|(k, list)| (is_kept(k), *list));
-        let mut table = Self { disks, kinds, lists: keep(room, lists), more: self.more.clone() };
-        if kept < self.disks.len() {
-            table.more.clear();
-            for list in table.lists.iter_mut().filter(|list| list[2] == MORE) {
-                let start = table.more.len() as u32;
-                table.more.extend_from_slice(&self.more[list[0] as usize..][..list[1] as usize]);
-                list[0] = start;
+            table.disks.push(*disk);
+            table.kinds.push(kind(*left, was));
+            *left = number;
+            number += 1;
+            let [a, b, c] = *list;
+            if c == MORE {
+                let governors = &self.more[a as usize..][..b as usize];
+                table.lists.push([table.more.len() as u32, b, MORE]);
+                table.more.extend_from_slice(governors);
+                governors.iter().copied().for_each(&mut show);
+            } else {
+                table.lists.push(*list);
+                [a, b, if c == TWO { a } else { c }].into_iter().for_each(&mut show);
             }
-        }
-        if let Some(sites) = sites {
-            table.renumber(|site| sites[site as usize]);
         }
         table
-    }
-
-    /// Shows all governors of some keypoints, perhaps more than once.
-    #[inline]
-    pub fn show_governors_of(&self, of: impl Fn(usize) -> bool, mut show: impl FnMut(u32)) {
-        for (_, &[a, b, c]) in self.lists.iter().enumerate().filter(|(k, _)| of(*k)) {
-            match c {
-                MORE => self.more[a as usize..][..b as usize].iter().copied().for_each(&mut show),
-                _ => [a, b, if c == TWO { a } else { c }].into_iter().for_each(&mut show),
-            }
-        }
     }
 
     /// Governors of a keypoint, if there is such a keypoint and they are three.

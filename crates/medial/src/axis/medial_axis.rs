@@ -224,23 +224,16 @@ impl MedialAxis {
         self.sites.clone()
     }
 
-    /// A table of some keypoints, with room for so many and so many more: each of a kind that depends on its
-    /// number and its kind here, with its governors in the same order, under other numbers if such are given.
+    /// A table of the keypoints of which something is left, as [`KeypointTable::left`] has it.
     #[inline]
-    pub(crate) fn some_keypoints(
+    pub(crate) fn keypoints_left(
         &self,
         room: [usize; 2],
-        is_kept: impl Fn(usize) -> bool,
-        kind: impl Fn(usize, KeypointKind) -> KeypointKind,
-        sites: Option<&[u32]>,
+        left: &mut [u32],
+        kind: impl Fn(u32, KeypointKind) -> KeypointKind,
+        show: impl FnMut(u32),
     ) -> KeypointTable {
-        self.keypoints.some(room, is_kept, kind, sites)
-    }
-
-    /// Shows all governors of some keypoints, perhaps more than once.
-    #[inline]
-    pub(crate) fn show_governors(&self, of: impl Fn(usize) -> bool, show: impl FnMut(u32)) {
-        self.keypoints.show_governors_of(of, show);
+        self.keypoints.left(room, left, kind, show)
     }
 
     /// Adds a path to a table between two keypoints, of which the first one is such a copy of that where it

@@ -189,22 +189,26 @@ pub fn branches(axis: &MedialAxis) -> Branches<'_> {
     let mut branches = Branches {
         axis,
         passed: Vec::with_capacity(n_paths),
-        pieces: Vec::with_capacity(n_paths),
+        // Those with a neck are two pieces.
+        pieces: Vec::with_capacity(n_paths + n_paths / 4),
         records: Vec::with_capacity(n_ends / 2),
     };
     let mut is_used = vec![false; n_paths];
-    let leaves = (0..n).filter(|&k| around.degree(k) == 1);
-    let junctions = (0..n).filter(|&k| around.degree(k) > 2);
-    for keypoint in leaves.chain(junctions) {
-        for number in around.of(keypoint) {
-            branches.follow(&around, &mut is_used, [keypoint, number], false);
+    for keypoint in 0..n {
+        if around.degree(keypoint) == 1 {
+            branches.follow(&around, &mut is_used, [keypoint, around.first(keypoint)], false);
+        }
+    }
+    for keypoint in 0..n {
+        if around.degree(keypoint) > 2 {
+            for number in around.of(keypoint) {
+                branches.follow(&around, &mut is_used, [keypoint, number], false);
+            }
         }
     }
     if branches.passed.len() < n_paths {
         for keypoint in (0..n).filter(|&k| around.degree(k) == 2) {
-            for number in around.of(keypoint).take(1) {
-                branches.follow(&around, &mut is_used, [keypoint, number], true);
-            }
+            branches.follow(&around, &mut is_used, [keypoint, around.first(keypoint)], true);
         }
     }
     branches
@@ -222,11 +226,13 @@ struct Open {
 /// The boundary on one side of a branch so far: its last site, and where on that it is met first.
 #[derive(Clone, Copy)]
 struct Bank {
-    number: u32,
-    site: SiteShape,
+    site: u32,
     first: Point,
     length: f64,
 }
+
+/// No site yet.
+const NONE: u32 = u32::MAX;
 
 impl<'a> Branches<'a> {
     /// How many there are.
@@ -259,10 +265,10 @@ impl<'a> Branches<'a> {
         }
         let axis = self.axis;
         let (passed, pieces) = (self.passed.len() as u32, self.pieces.len());
-        let mut open = Open { pieces, sum: Sum::default(), piece: None };
-        let mut banks: Option<[Bank; 2]> = None;
+        let mut open = Open { pieces, sum: Sum::NOTHING, piece: None };
+        let mut banks = [Bank { site: NONE, first: Point::default(), length: 0.0 }; 2];
         let (mut keypoint, mut number) = (start, number);
-        let to = loop {
+        loop {
             is_used[number as usize] = true;
             let path = axis.paths().at(number);
             // A loop at one keypoint is passed from its start.
@@ -273,29 +279,22 @@ impl<'a> Branches<'a> {
                 let end = axis.keypoints().at(keypoint);
                 (end.position, end.radius)
             });
-            let numbers = [path.left, path.right];
-            match &mut banks {
-                None => {
-                    banks = Some([0, 1].map(|k| Bank::new(numbers[k], &sites[k], disks[0].0)));
-                }
-                Some(banks) => {
-                    for ((bank, site), number) in banks.iter_mut().zip(&sites).zip(numbers) {
-                        bank.pass(number, site, disks[0].0);
-                    }
-                }
-            }
+            banks[0].pass(path.left, &sites[0], disks[0].0);
+            banks[1].pass(path.right, &sites[1], disks[0].0);
             self.passed.push(2 * number + u32::from(!forwards));
             self.pass(&mut open, &sites, disks);
             keypoint = path.to;
-            match around.next(keypoint, is_used) {
-                Some(next) => number = next,
-                None => break disks[1].0,
+            if let Some(next) = around.next(keypoint, is_used) {
+                number = next;
+                continue;
             }
-        };
-        self.end_piece(&mut open);
-        let boundary = banks.map_or([0.0; 2], |banks| banks.map(|bank| bank.length_up_to(to)));
-        let (extent, pieces) = (open.sum.extent(), pieces as u32);
-        self.records.push(BranchRecord { passed, pieces, is_closed, extent, boundary });
+            self.end_piece(&mut open);
+            let boundary =
+                [0, 1].map(|side| banks[side].length_up_to(&sites[side], disks[1].0));
+            let (extent, pieces) = (open.sum.extent(), pieces as u32);
+            self.records.push(BranchRecord { passed, pieces, is_closed, extent, boundary });
+            return;
+        }
     }
 
     /// Adds a path between these sites at the end of the branch that is open.
@@ -353,24 +352,31 @@ impl<'a> Branches<'a> {
 }
 
 impl Bank {
-    /// That of a site, from the footpoint of a point.
-    fn new(number: u32, site: &SiteShape, from: Point) -> Self {
-        Self { number, site: *site, first: foot_on(site.a, site.b, from), length: 0.0 }
-    }
-
     /// Goes on along a site, from the footpoint of a point.
+    #[inline]
     fn pass(&mut self, number: u32, site: &SiteShape, from: Point) {
-        if self.number != number {
-            let first = foot_on(site.a, site.b, from);
-            let length = self.length + (first - self.first).norm();
-            *self = Self { number, site: *site, first, length };
+        if self.site != number {
+            let first = foot(site, from);
+            if self.site != NONE {
+                self.length += (first - self.first).norm();
+            }
+            (self.site, self.first) = (number, first);
         }
     }
 
-    /// Its length up to the footpoint of a point.
-    fn length_up_to(&self, to: Point) -> f64 {
-        let SiteShape { a, b, .. } = self.site;
-        self.length + (foot_on(a, b, to) - self.first).norm()
+    /// Its length up to the footpoint of a point, on its last site.
+    #[inline]
+    fn length_up_to(&self, site: &SiteShape, to: Point) -> f64 {
+        self.length + (foot(site, to) - self.first).norm()
+    }
+}
+
+/// The footpoint of a point on a site.
+#[inline]
+fn foot(site: &SiteShape, from: Point) -> Point {
+    match site.kind {
+        SiteKind::Vertex => site.a,
+        SiteKind::Edge => foot_on(site.a, site.b, from),
     }
 }
 
@@ -567,8 +573,8 @@ impl Extent {
             area: ((length - rise) * (length + rise)).max(0.0).sqrt() * (r1 + r2),
             radius_start: r1,
             radius_end: r2,
-            radius_min: r1.min(r2),
-            radius_max: r1.max(r2),
+            radius_min: lesser(r1, r2),
+            radius_max: greater(r1, r2),
             radius_mean: 0.5 * (r1 + r2),
         }
     }
@@ -601,40 +607,37 @@ struct Sum {
     greatest: f64,
 }
 
-impl Default for Sum {
-    fn default() -> Self {
-        let nothing = f64::NAN;
-        Self {
-            length: 0.0,
-            area: 0.0,
-            moment: 0.0,
-            start: nothing,
-            end: nothing,
-            least: nothing,
-            greatest: 0.0,
-        }
-    }
-}
-
 impl Sum {
+    /// The sum of nothing.
+    const NOTHING: Self = Self {
+        length: 0.0,
+        area: 0.0,
+        moment: 0.0,
+        start: 0.0,
+        end: 0.0,
+        least: f64::INFINITY,
+        greatest: 0.0,
+    };
+
     fn of(first: &Extent) -> Self {
-        let mut sum = Self::default();
+        let mut sum = Self::NOTHING;
         sum.add(first);
         sum
     }
 
     #[inline]
     fn add(&mut self, next: &Extent) {
+        // Nothing is greater than any radius only as long as there is nothing.
+        self.start = if self.least == f64::INFINITY { next.radius_start } else { self.start };
+        self.end = next.radius_end;
         self.length += next.length;
         self.area += next.area;
         self.moment += next.length * next.radius_mean;
-        // The other of two numbers is the lesser one if one is no number.
-        self.least = self.least.min(next.radius_min);
-        self.greatest = self.greatest.max(next.radius_max);
-        self.start = if self.start.is_nan() { next.radius_start } else { self.start };
-        self.end = next.radius_end;
+        self.least = lesser(self.least, next.radius_min);
+        self.greatest = greater(self.greatest, next.radius_max);
     }
 
+    #[inline]
     fn extent(&self) -> Extent {
         let Self { length, area, moment, start, end, least, greatest } = *self;
         let mean = if length > 0.0 { moment / length } else { greatest };
@@ -645,9 +648,21 @@ impl Sum {
             radius_end: end,
             radius_min: least,
             radius_max: greatest,
-            radius_mean: mean.clamp(least, greatest),
+            radius_mean: lesser(greater(mean, least), greatest),
         }
     }
+}
+
+/// The lesser of two numbers, as machines have it.
+#[inline]
+fn lesser(a: f64, b: f64) -> f64 {
+    if a < b { a } else { b }
+}
+
+/// The greater of two numbers, as machines have it.
+#[inline]
+fn greater(a: f64, b: f64) -> f64 {
+    if a > b { a } else { b }
 }
 
 impl BoundaryPiece {

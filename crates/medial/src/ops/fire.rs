@@ -93,17 +93,16 @@ impl Fire {
         let nothing = f64::NEG_INFINITY;
         let none = Arrivals { left: 0, numbers: 0, last: nothing, by: NONE, before: nothing };
         let mut arrivals = vec![none; keypoints.len()];
-        let mut lengths = Vec::with_capacity(axis.paths().len());
         let mut paths = Vec::with_capacity(axis.paths().len());
         for (number, path) in (0..).zip(axis.paths()) {
             paths.push(path);
-            lengths.push(axis.length_of(&path));
             for end in [path.from, path.to] {
                 let arrivals = &mut arrivals[end as usize];
                 arrivals.left += 1;
                 arrivals.numbers ^= number;
             }
         }
+        let lengths = axis.lengths(&paths);
         let mut fire = Self {
             times: vec![f64::INFINITY; keypoints.len()],
             ways: vec![Way::Never; lengths.len()],

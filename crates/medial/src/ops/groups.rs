@@ -91,6 +91,12 @@ impl Incidence {
         self.around[keypoint as usize].degree as usize
     }
 
+    /// The first path, if there is one.
+    #[inline]
+    pub fn first(&self, keypoint: u32) -> u32 {
+        self.around[keypoint as usize].numbers[0]
+    }
+
     /// The paths, in their order.
     pub fn of(&self, keypoint: u32) -> impl Iterator<Item = u32> {
         let Around { degree, numbers } = &self.around[keypoint as usize];

@@ -519,7 +519,7 @@ impl<'a> Hierarchy<'a> {
             let (path, forwards) = (step.dart / 2, step.dart.is_multiple_of(2));
             if is_enough {
                 is_reached[next] = true;
-                let limb = self.limb(step, 0.0, fars[place]);
+                let limb = self.limb(step, 0.0, far);
                 let part =
                     Part { path, forwards, from: step.from, to: step.to, end: 1.0, root: None };
                 cuts.add_reached(measure, threshold, &part, &limb);
@@ -738,6 +738,11 @@ impl Limb<'_> {
             (None, Some(neck)) => (neck, end),
             (None, None) => (0.0, end),
         };
+        if measure == Measure::Excess
+            && let Some(place) = self.reached_from_corner(threshold, end)
+        {
+            return place;
+        }
         let at = |u: f64| low + (high - low) * u;
         // No more than the threshold is lost, unless that is reached at the very end.
         let last_below = |[before, after]: [f64; 2]| at(if after == 1.0 { after } else { before });
@@ -751,6 +756,32 @@ impl Limb<'_> {
             return at(bisected(missing));
         }
         last_below(crossing(missing))
+    }
+
+    /// The same for the excess on a line out of a corner that is all there is behind, along which it grows in
+    /// proportion: the last place that shows to be below the threshold, by a few ulp of 1 at most.
+    fn reached_from_corner(&self, threshold: f64, end: f64) -> Option<f64> {
+        /// Steps back from where it would be without rounding, each twice as long as the one before.
+        const STEPS: u32 = 5;
+        let (first, last) = self.corners();
+        let [(from, r1), (to, r2)] = self.disks;
+        let is_line = self.left.is_edge() && self.right.is_edge();
+        if !(is_line && first == last && r1 == 0.0) {
+            return None;
+        }
+        let mut u = threshold / ((to - from).norm() - r2);
+        let mut step = 0.5 * f64::EPSILON;
+        for _ in 0..STEPS {
+            u -= step;
+            if !(0.0 < u && u < end - 2.0 * f64::EPSILON) {
+                return None;
+            }
+            if self.excess(u) < threshold {
+                return Some(u);
+            }
+            step *= 2.0;
+        }
+        None
     }
 
     /// The excess at the start, from the corners behind all that ends there.

@@ -168,7 +168,7 @@ impl Outline {
             }
             OutlinePolygon(contours)
         };
-        let components = turns.components(|darts| turns.contour(darts));
+        let components = turns.components(|around| turns.contour(around));
         Ok(Self { polygons: components.into_iter().map(polygon).collect() })
     }
 
@@ -407,12 +407,12 @@ impl<'a> Turns<'a> {
     }
 
     /// The components with their contours, each made of all that is passed with it on the right.
-    pub fn components<C>(&self, contour: impl Fn(&[u32]) -> C) -> Vec<Component<C>> {
+    pub fn components<C>(&self, contour: impl Fn(&mut Around<'_>) -> C) -> Vec<Component<C>> {
         let n = self.axis.keypoints().len();
         let mut is_met = vec![false; n];
         let mut is_passed = vec![false; self.darts.len()];
         let mut left = self.darts.len();
-        let (mut open, mut darts) = (Vec::new(), Vec::new());
+        let mut open = Vec::new();
         let mut components = Vec::new();
         for start in 0..n as u32 {
             // Where all has been passed only keypoints without paths are left.
@@ -428,9 +428,12 @@ impl<'a> Turns<'a> {
                         open.push(self.end(dart));
                     }
                     if !is_passed[dart as usize] {
-                        self.around(dart, &mut is_passed, &mut darts);
-                        left -= darts.len();
-                        component.contours.push(contour(&darts));
+                        let darts = &self.darts;
+                        let mut around =
+                            Around { darts, is_passed: &mut is_passed, next: dart, left };
+                        component.contours.push(contour(&mut around));
+                        around.by_ref().for_each(drop);
+                        left = around.left;
                     }
                 }
                 if left == 0 {
@@ -442,62 +445,94 @@ impl<'a> Turns<'a> {
         components
     }
 
-    /// What is passed with the same contour on the right, from a path on.
-    fn around(&self, start: u32, is_passed: &mut [bool], darts: &mut Vec<u32>) {
-        darts.clear();
-        let mut dart = start;
-        while !std::mem::replace(&mut is_passed[dart as usize], true) {
-            darts.push(dart);
-            dart = self.next(dart);
-        }
-    }
-
     /// The contour to the right of all these.
-    fn contour(&self, darts: &[u32]) -> Contour {
+    fn contour(&self, around: &mut Around<'_>) -> Contour {
         /// Paths passed for each corner, about.
         const PASSED: usize = 3;
-        let mut pieces = Vec::with_capacity(darts.len() / PASSED + 1);
+        // The first contour may be all there is; of many each is short.
+        let is_first = around.left == self.darts.len();
+        let mut pieces = Vec::with_capacity(if is_first { around.left / PASSED } else { 0 });
         let right = |dart: u32| self.darts[dart as usize].right;
-        let Some(&first) = darts.first() else { return Contour(pieces) };
+        let Some(first) = around.next() else { return Contour(pieces) };
         let mut before = (right(first), self.axis.site_shape(right(first)));
-        let mut dart = first;
-        for &next in darts[1..].iter().chain([&first]) {
-            let came_by = std::mem::replace(&mut dart, next);
-            let is_end = next == came_by ^ 1;
-            if right(next) == before.0 && !is_end {
-                continue;
-            }
-            let after = (right(next), self.axis.site_shape(right(next)));
-            if before.1.kind == SiteKind::Vertex {
+        let mut came_by = first;
+        loop {
+            let next = around.next();
+            let dart = next.unwrap_or(first);
+            let is_end = dart == came_by ^ 1;
+            if right(dart) != before.0 || is_end {
+                let after = (right(dart), self.axis.site_shape(right(dart)));
+                if before.1.kind == SiteKind::Vertex {
+                    push(&mut pieces, OutlinePiece::Corner(before.1.a));
+                }
+                self.turn(&mut pieces, came_by, &before, &after);
+                before = after;
+            } else if next.is_none() && before.1.kind == SiteKind::Vertex {
+                // It goes on at the start.
                 push(&mut pieces, OutlinePiece::Corner(before.1.a));
             }
-            let keypoint = self.end(came_by);
-            let disk = self.axis.keypoints().at(keypoint);
-            if disk.kind == KeypointKind::End {
-                push(&mut pieces, OutlinePiece::Corner(disk.position));
-            } else if before.0 != after.0 && !meet(&before.1, &after.1) {
-                let (centre, radius) = (disk.position, disk.radius);
-                let [from, to] = [before, after].map(|(_, site)| foot_on(site.a, site.b, centre));
-                let closes = self.leaving(keypoint).nth(1).is_none()
-                    && self.axis.curve(&self.path(came_by)).growth_at(1.0) > 0.0;
-                if TAU - sweep(centre, from, to) < WRAPPED && !closes {
-                    // An arc of nothing, for a corner that is nearly straight.
-                    push(&mut pieces, OutlinePiece::Corner(from));
-                } else {
-                    let sense = Sense::Counterclockwise;
-                    push(&mut pieces, OutlinePiece::Arc { centre, radius, from, to, sense });
-                }
+            came_by = dart;
+            if next.is_none() {
+                break;
             }
-            before = after;
-        }
-        // The last one, where it goes on at the start.
-        if before.1.kind == SiteKind::Vertex && right(darts[darts.len() - 1]) == before.0 {
-            push(&mut pieces, OutlinePiece::Corner(before.1.a));
         }
         if pieces.len() > 1 && pieces.first() == pieces.last() {
             pieces.pop();
         }
+        pieces.shrink_to_fit();
         Contour(pieces)
+    }
+
+    /// Adds what lies between two sites, at the keypoint to which a path leads.
+    #[inline]
+    fn turn(
+        &self,
+        pieces: &mut Vec<OutlinePiece>,
+        came_by: u32,
+        before: &(u32, SiteShape),
+        after: &(u32, SiteShape),
+    ) {
+        let keypoint = self.end(came_by);
+        let disk = self.axis.keypoints().at(keypoint);
+        if disk.kind == KeypointKind::End {
+            push(pieces, OutlinePiece::Corner(disk.position));
+        } else if before.0 != after.0 && !meet(&before.1, &after.1) {
+            let (centre, radius) = (disk.position, disk.radius);
+            let [from, to] = [before, after].map(|(_, site)| foot_on(site.a, site.b, centre));
+            let closes = self.leaving(keypoint).nth(1).is_none()
+                && self.axis.curve(&self.path(came_by)).growth_at(1.0) > 0.0;
+            if TAU - sweep(centre, from, to) < WRAPPED && !closes {
+                // An arc of nothing, for a corner that is nearly straight.
+                push(pieces, OutlinePiece::Corner(from));
+            } else {
+                let sense = Sense::Counterclockwise;
+                push(pieces, OutlinePiece::Arc { centre, radius, from, to, sense });
+            }
+        }
+    }
+}
+
+/// What is passed with the same contour on the right, from a path on.
+pub(super) struct Around<'t> {
+    darts: &'t [Dart],
+    is_passed: &'t mut [bool],
+    next: u32,
+    /// How much has not been passed yet, of all.
+    left: usize,
+}
+
+impl Iterator for Around<'_> {
+    type Item = u32;
+
+    #[inline]
+    fn next(&mut self) -> Option<u32> {
+        let dart = self.next;
+        if std::mem::replace(&mut self.is_passed[dart as usize], true) {
+            return None;
+        }
+        self.left -= 1;
+        self.next = self.darts[dart as usize].next;
+        Some(dart)
     }
 }
 

@@ -1,6 +1,6 @@
 //! What is left of an axis when parts of paths are removed.
 
-use crate::axis::{Curve, Keypoint, KeypointKind, MedialAxis, Path, PathTable, SiteTable};
+use crate::axis::{Curve, GONE, Keypoint, KeypointKind, MedialAxis, Path, PathTable, SiteTable};
 
 /// What is left of an axis.
 #[derive(Clone, Debug, PartialEq)]
@@ -39,19 +39,17 @@ const WHOLE: u32 = u32::MAX;
 /// All parameters along a path.
 const ALL: [f64; 2] = [0.0, 1.0];
 
-/// What keypoints are left.
+/// How much is left.
 struct Left {
-    /// How many paths each has left.
+    /// How many paths each keypoint has left; [`ALONE`] if that is none and it is kept.
     degrees: Vec<u32>,
-    /// Their new numbers; [`GONE`] where a keypoint is not kept.
-    numbers: Vec<u32>,
-    n_keypoints: u32,
+    n_keypoints: usize,
     n_paths: usize,
     n_tips: usize,
 }
 
-/// No number: not kept.
-const GONE: u32 = u32::MAX;
+/// No path is left at a keypoint that is kept.
+const ALONE: u32 = u32::MAX;
 
 impl<'a> Rest<'a> {
     /// All of an axis.
@@ -166,32 +164,35 @@ impl<'a> Rest<'a> {
         self.cut.iter().all(|(_, part)| *part == ALL)
     }
 
-    /// What keypoints are left, those of roots among them.
+    /// How much is left, roots included.
     fn left(&self, roots: &[u32]) -> Left {
         let Self { axis, cut, .. } = self;
         let (mut n_paths, mut n_tips) = (self.places.len(), 0);
         let mut degrees = axis.degrees();
+        let mut n_keypoints = degrees.len();
+        let mut lose = |keypoint: u32, is_less: bool| {
+            let degree = &mut degrees[keypoint as usize];
+            *degree -= u32::from(is_less);
+            n_keypoints -= usize::from(is_less && *degree == 0);
+        };
         for &(path, [low, high]) in cut {
             let [from, to] = axis.paths().ends(path);
             let is_left = is_left(low, high);
-            degrees[from as usize] -= u32::from(!is_left || low != 0.0);
-            degrees[to as usize] -= u32::from(!is_left || high != 1.0);
+            lose(from, !is_left || low != 0.0);
+            lose(to, !is_left || high != 1.0);
             n_paths -= usize::from(low >= high);
             if is_left {
                 n_tips += is_tip(low, high).map(usize::from).iter().sum::<usize>();
             }
         }
-        let mut numbers = vec![GONE; degrees.len()];
         for &root in roots {
-            numbers[root as usize] = 0;
+            let degree = &mut degrees[root as usize];
+            if *degree == 0 {
+                *degree = ALONE;
+                n_keypoints += 1;
+            }
         }
-        let mut n_keypoints = 0;
-        for (number, &degree) in numbers.iter_mut().zip(&degrees) {
-            let is_kept = *number == 0 || degree > 0;
-            *number = if is_kept { n_keypoints } else { GONE };
-            n_keypoints += u32::from(is_kept);
-        }
-        Left { degrees, numbers, n_keypoints, n_paths, n_tips }
+        Left { degrees, n_keypoints, n_paths, n_tips }
     }
 
     /// What is left; of a component that is removed altogether the root. `lost` tells the excess of what
@@ -203,34 +204,55 @@ impl<'a> Rest<'a> {
             let origins = (0..axis.paths().len() as u32).map(origin).collect();
             return Pruned { axis: axis.clone(), error: 0.0, origins };
         }
-        let left = self.left(roots);
-        let Left { numbers, n_keypoints, n_paths, n_tips, .. } = &left;
+        let mut origins = Vec::with_capacity(axis.paths().len());
+        let (axis, error) = self.listed(roots, lost, |path, part| origins.push(Origin { path, part }));
+        Pruned { axis, error, origins }
+    }
+
+    /// The same without the origins.
+    pub fn axis_and_error(self, roots: &[u32], lost: &[(u32, f64)]) -> (MedialAxis, f64) {
+        if self.is_all() {
+            return (self.axis.clone(), 0.0);
+        }
+        self.listed(roots, lost, |_, _| ())
+    }
+
+    /// The same, given something to do with each path that is left and what is left of it.
+    fn listed(
+        self,
+        roots: &[u32],
+        lost: &[(u32, f64)],
+        mut of_path: impl FnMut(u32, [f64; 2]),
+    ) -> (MedialAxis, f64) {
+        let axis = self.axis;
+        let Left { degrees: mut numbers, n_keypoints, n_paths, n_tips } = self.left(roots);
+        let kind = |degree: u32, kind: KeypointKind| match (degree, kind) {
+            (1, kind @ (KeypointKind::End | KeypointKind::Clipped)) => kind,
+            (ALONE | 1, _) => KeypointKind::Tip,
+            (2, _) => KeypointKind::Transition,
+            _ => KeypointKind::Junction,
+        };
+        let mut sites = vec![GONE; axis.sites().len()];
+        let mut points = axis.keypoints_left([n_keypoints, n_tips], &mut numbers, kind, |site| {
+            sites[site as usize] = 0;
+        });
         let mut error = self.error;
         for &(keypoint, excess) in lost {
             if numbers[keypoint as usize] != GONE {
                 error = error.max(excess);
             }
         }
-        // Sites that govern nothing any more are not listed.
-        let (table, sites) = self.sites(&left);
+        let (table, sites) = self.sites(sites);
+        if let Some(sites) = &sites {
+            points.renumber(|site| sites[site as usize]);
+        }
         let site = |site: u32| sites.as_ref().map_or(site, |sites| sites[site as usize]);
-        let kind = |degree: u32, kind: KeypointKind| match (degree, kind) {
-            (1, kind @ (KeypointKind::End | KeypointKind::Clipped)) => kind,
-            (0 | 1, _) => KeypointKind::Tip,
-            (2, _) => KeypointKind::Transition,
-            _ => KeypointKind::Junction,
-        };
-        let is_kept = |k: usize| numbers[k] != GONE;
-        let room = [*n_keypoints as usize, *n_tips];
-        let mut points =
-            axis.some_keypoints(room, is_kept, |k, was| kind(left.degrees[k], was), sites.as_deref());
-        let (mut paths, mut origins) =
-            (PathTable::with_room(*n_paths), Vec::with_capacity(*n_paths));
+        let mut paths = PathTable::with_room(n_paths);
         let number = |keypoint: u32| numbers[keypoint as usize];
         for (origin, (ends, &place)) in (0..).zip(axis.paths().all_ends().zip(&self.places)) {
             if place == WHOLE {
                 axis.copy_path(&mut paths, origin, ends.map(number), site);
-                origins.push(Origin { path: origin, part: ALL });
+                of_path(origin, ALL);
                 continue;
             }
             let part @ [low, high] = self.cut[place as usize].1;
@@ -258,26 +280,27 @@ impl<'a> Rest<'a> {
             } else {
                 axis.copy_path(&mut paths, origin, [from, to], site);
             }
-            origins.push(Origin { path: origin, part });
+            of_path(origin, part);
         }
         points.shrink();
         paths.shrink();
         let MedialAxis { engine, side, accuracy, .. } = *axis;
         let axis = MedialAxis::from_tables(engine, side, accuracy, false, table, points, paths);
-        Pruned { axis, error, origins }
+        (axis, error)
     }
 
     /// The sites that govern something that is left, and the numbers that all have among them, unless that
-    /// are all.
-    fn sites(&self, left: &Left) -> (SiteTable, Option<Vec<u32>>) {
+    /// are all: sites that govern nothing any more are not listed. Given are those of the keypoints.
+    fn sites(&self, mut sites: Vec<u32>) -> (SiteTable, Option<Vec<u32>>) {
         let axis = self.axis;
-        let mut sites = vec![GONE; axis.sites().len()];
         // The governors of a path are those of the keypoint where it starts, or listed.
-        axis.show_governors(|k| left.numbers[k] != GONE, |site| sites[site as usize] = 0);
-        for &(path, [low, high]) in self.cut.iter().filter(|(_, part)| is_left(part[0], part[1])) {
-            if is_tip(low, high) != [false; 2] {
-                let path = axis.paths().at(path);
-                (sites[path.left as usize], sites[path.right as usize]) = (0, 0);
+        let mut show = |path: u32| {
+            let path = axis.paths().at(path);
+            (sites[path.left as usize], sites[path.right as usize]) = (0, 0);
+        };
+        for &(path, [low, high]) in &self.cut {
+            if is_left(low, high) && is_tip(low, high) != [false; 2] {
+                show(path);
             }
         }
         for path in axis.paths().listed() {
@@ -287,8 +310,7 @@ impl<'a> Rest<'a> {
                 is_left(low, high)
             };
             if is_kept {
-                let path = axis.paths().at(path);
-                (sites[path.left as usize], sites[path.right as usize]) = (0, 0);
+                show(path);
             }
         }
         if !sites.contains(&GONE) {
