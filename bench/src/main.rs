@@ -111,13 +111,13 @@ fn operation(name: &str) -> Result<(), Error> {
 /// Does an operation as a user would; gives a number of what came of it.
 #[inline(never)]
 fn medial_bench_operation(name: &str, domain: &Domain, axis: &MedialAxis) -> Result<usize, Error> {
-    let bounds = axis.bounds().map_or(0.0, |(low, high)| (high - low).norm());
+    let bounds = || axis.bounds().map_or(0.0, |(low, high)| (high - low).norm());
     Ok(match name {
         "hierarchy" => Hierarchy::new(domain, axis)?.significance(Measure::Potential).paths.len(),
         "significance" => Hierarchy::new(domain, axis)?.significance(Measure::Excess).paths.len(),
         "prune" => {
             let hierarchy = Hierarchy::new(domain, axis)?;
-            hierarchy.pruned(Measure::Excess, 1e-3 * bounds).axis.paths().len()
+            hierarchy.pruned(Measure::Excess, 1e-3 * bounds()).axis.paths().len()
         }
         "smooth" => smoothed(domain, axis, Measure::Prominence, 0.1)?.outline.polygons.len(),
         "branches" => branches(axis).len(),
@@ -126,7 +126,7 @@ fn medial_bench_operation(name: &str, domain: &Domain, axis: &MedialAxis) -> Res
         "centerline" => centerlines(domain, axis, &CenterlineOptions::default())?.len(),
         "together" => {
             let hierarchy = Hierarchy::new(domain, axis)?;
-            let pruned = hierarchy.pruned(Measure::Excess, 1e-3 * bounds);
+            let pruned = hierarchy.pruned(Measure::Excess, 1e-3 * bounds());
             let smooth = hierarchy.smoothed(Measure::Prominence, 0.1)?;
             let lines = hierarchy.centerlines(&CenterlineOptions::default())?;
             let (branches, outline) = (branches(axis), Outline::new(axis)?);

@@ -1,23 +1,36 @@
 //! The functions that lengths of parabolas need, from square roots alone: the same on every platform, and
 //! several times faster than those of the system's library, which every operation on an axis waits for.
 
+/// Whether the root of a sum of squares is the length of a way.
+#[inline]
+pub(super) fn is_usual(square: f64) -> bool {
+    const LEAST: f64 = f64::from_bits((1023 - 900) << 52);
+    const MOST: f64 = f64::from_bits((1023 + 1000) << 52);
+    (LEAST < square) & (square < MOST)
+}
+
 /// The length of the way `(x, y)`, also where squares overflow or vanish.
 #[inline]
 pub(super) fn hypot(x: f64, y: f64) -> f64 {
-    const LEAST: f64 = f64::from_bits((1023 - 900) << 52);
-    const MOST: f64 = f64::from_bits((1023 + 1000) << 52);
     let square = x * x + y * y;
-    if LEAST < square && square < MOST { square.sqrt() } else { x.hypot(y) }
+    if is_usual(square) { square.sqrt() } else { x.hypot(y) }
 }
 
 /// The inverse of the hyperbolic sine, within 4 ulp.
 #[inline]
 pub(super) fn asinh(x: f64) -> f64 {
-    /// Up to here the series below is long enough.
-    const MOST: f64 = 1.0;
-    if x.is_nan() || x.abs() > MOST {
-        return x.asinh();
-    }
+    if is_little(x) { asinh_of_little(x) } else { x.asinh() }
+}
+
+/// Whether a series is long enough for the inverse of the hyperbolic sine.
+#[inline]
+pub(super) fn is_little(x: f64) -> bool {
+    x.abs() <= 1.0
+}
+
+/// The inverse of the hyperbolic sine of what is little.
+#[inline]
+pub(super) fn asinh_of_little(x: f64) -> f64 {
     // With tanh of half and of a quarter of it: asinh x = 2 artanh t = 4 artanh v, |v| < 0.217.
     let t = x / (1.0 + (1.0 + x * x).sqrt());
     let v = t / (1.0 + (1.0 - t * t).sqrt());

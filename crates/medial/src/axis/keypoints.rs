@@ -1,6 +1,5 @@
 //! The keypoints of an axis with their governors: most have three, which are kept side by side.
 
-#[cfg(feature = "parallel")]
 use std::ops::Range;
 
 use super::views::view;
@@ -18,6 +17,9 @@ pub(crate) struct KeypointTable {
     lists: Vec<[u32; 3]>,
     more: Vec<u32>,
 }
+
+/// The number of a keypoint of which nothing is left.
+pub(crate) const GONE: u32 = u32::MAX;
 
 /// More than the number of any site.
 const TWO: u32 = u32::MAX;
@@ -145,29 +147,75 @@ impl KeypointTable {
         }
     }
 
-    /// Adds a keypoint of another table as one of a kind, with other numbers of its governors in the same
-    /// order.
+    /// How many places there are for governors, if all lists stand in one row: three for each keypoint, then
+    /// those of longer lists.
+    pub fn n_places(&self) -> usize {
+        3 * self.lists.len() + self.more.len()
+    }
+
+    /// The places of the governors of a keypoint in that row.
     #[inline]
-    pub fn push_of(
-        &mut self,
-        other: &Self,
-        keypoint: u32,
-        kind: KeypointKind,
-        site: impl Fn(u32) -> u32,
-    ) {
-        let list = match other.lists[keypoint as usize] {
-            [a, b, TWO] => [site(a), site(b), TWO],
-            [first, n, MORE] => {
-                let start = self.more.len() as u32;
-                let governors = &other.more[first as usize..][..n as usize];
-                self.more.extend(governors.iter().map(|&governor| site(governor)));
-                [start, n, MORE]
+    pub fn places(&self, keypoint: u32) -> Range<usize> {
+        let first = 3 * keypoint as usize;
+        match self.lists[keypoint as usize] {
+            [more, n, MORE] => {
+                let first = 3 * self.lists.len() + more as usize;
+                first..first + n as usize
             }
-            list => list.map(site),
-        };
-        self.disks.push(other.disks[keypoint as usize]);
-        self.kinds.push(kind);
-        self.lists.push(list);
+            [_, _, TWO] => first..first + 2,
+            _ => first..first + 3,
+        }
+    }
+
+    /// The place of a governor of a keypoint in that row.
+    #[inline]
+    pub fn place_of(&self, keypoint: u32, governor: u32) -> Option<usize> {
+        let [a, b, c] = self.lists[keypoint as usize];
+        if c == MORE {
+            let place = self.governors(keypoint).iter().position(|&known| known == governor);
+            return place.map(|place| self.places(keypoint).start + place);
+        }
+        // Which of the three it is cannot be foreseen, so nothing branches on it.
+        let place = if b == governor { 1 } else { 2 };
+        let place = if a == governor { 0 } else { place };
+        (place < 2 || c == governor).then_some(3 * keypoint as usize + place)
+    }
+
+    /// A table of the keypoints of which something is left, in their order, with room for so many and so many
+    /// more. `left` says how much of each is left; its new number takes the place of that, or [`GONE`]. Kinds
+    /// depend on both. All governors are shown, some more than once.
+    #[inline]
+    pub fn left(
+        &self,
+        [kept, more]: [usize; 2],
+        left: &mut [u32],
+        kind: impl Fn(u32, KeypointKind) -> KeypointKind,
+        mut show: impl FnMut(u32),
+    ) -> Self {
+        let mut table = Self::with_room(kept + more);
+        let mut number = 0;
+        let all = left.iter_mut().zip(&self.disks).zip(self.kinds.iter().zip(&self.lists));
+        for ((left, disk), (&was, list)) in all {
+            if *left == 0 {
+                *left = GONE;
+                continue;
+            }
+            table.disks.push(*disk);
+            table.kinds.push(kind(*left, was));
+            *left = number;
+            number += 1;
+            let [a, b, c] = *list;
+            if c == MORE {
+                let governors = &self.more[a as usize..][..b as usize];
+                table.lists.push([table.more.len() as u32, b, MORE]);
+                table.more.extend_from_slice(governors);
+                governors.iter().copied().for_each(&mut show);
+            } else {
+                table.lists.push(*list);
+                [a, b, if c == TWO { a } else { c }].into_iter().for_each(&mut show);
+            }
+        }
+        table
     }
 
     /// Governors of a keypoint, if there is such a keypoint and they are three.

@@ -1,4 +1,5 @@
 use std::fmt;
+use std::ops::Range;
 
 use super::keypoints::{KeypointTable, Keypoints};
 use super::paths::{PathTable, Paths};
@@ -201,16 +202,38 @@ impl MedialAxis {
         self.sites.among(numbers)
     }
 
-    /// Adds a keypoint to a table as one of a kind, with other numbers of its governors in the same order.
+    /// How many places there are for governors, if the lists of all keypoints stand in one row.
+    pub(crate) fn n_places(&self) -> usize {
+        self.keypoints.n_places()
+    }
+
+    /// The places of the governors of a keypoint in that row.
     #[inline]
-    pub(crate) fn copy_keypoint(
+    pub(crate) fn places(&self, keypoint: u32) -> Range<usize> {
+        self.keypoints.places(keypoint)
+    }
+
+    /// The place of a governor of a keypoint in that row.
+    #[inline]
+    pub(crate) fn place_of(&self, keypoint: u32, governor: u32) -> Option<usize> {
+        self.keypoints.place_of(keypoint, governor)
+    }
+
+    /// The table of all sites.
+    pub(crate) fn all_sites(&self) -> SiteTable {
+        self.sites.clone()
+    }
+
+    /// A table of the keypoints of which something is left, as [`KeypointTable::left`] has it.
+    #[inline]
+    pub(crate) fn keypoints_left(
         &self,
-        table: &mut KeypointTable,
-        keypoint: u32,
-        kind: KeypointKind,
-        site: impl Fn(u32) -> u32,
-    ) {
-        table.push_of(&self.keypoints, keypoint, kind, site);
+        room: [usize; 2],
+        left: &mut [u32],
+        kind: impl Fn(u32, KeypointKind) -> KeypointKind,
+        show: impl FnMut(u32),
+    ) -> KeypointTable {
+        self.keypoints.left(room, left, kind, show)
     }
 
     /// Adds a path to a table between two keypoints, of which the first one is such a copy of that where it

@@ -14,7 +14,7 @@ mod views;
 pub use curve::Curve;
 pub(crate) use curve::{bisected, crossing};
 pub use draw::CurveKind;
-pub(crate) use keypoints::KeypointTable;
+pub(crate) use keypoints::{GONE, KeypointTable};
 pub use keypoints::{Keypoints, KeypointsIter};
 pub use medial_axis::{
     Accuracy, Engine, Keypoint, KeypointKind, MedialAxis, Path, Side, Site, SiteKind,

@@ -192,6 +192,11 @@ impl<'a> Paths<'a> {
         self.paths.ends[number as usize]
     }
 
+    /// The paths whose governors are no two neighbours in the list of the keypoint where they start.
+    pub(crate) fn listed(self) -> impl Iterator<Item = u32> + use<'a> {
+        self.paths.listed.iter().map(|listed| listed.path)
+    }
+
     /// The same for all of them, in their order.
     pub(crate) fn all_ends(self) -> impl ExactSizeIterator<Item = [u32; 2]> + use<'a> {
         self.paths.ends.iter().copied()

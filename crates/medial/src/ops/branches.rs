@@ -17,7 +17,7 @@
 
 use std::fmt;
 
-use super::groups::Groups;
+use super::groups::Incidence;
 use super::outline::foot_on;
 use crate::axis::{Curve, MedialAxis, Path, SiteKind, SiteShape, names};
 use crate::geom::{Point, cross_directions};
@@ -181,76 +181,58 @@ pub struct BoundaryPiece {
 /// ```
 #[must_use]
 pub fn branches(axis: &MedialAxis) -> Branches<'_> {
-    let incidence = Groups::paths_at_keypoints(axis);
+    let around = Incidence::new(axis);
     let n_paths = axis.paths().len();
     let n = axis.keypoints().len() as u32;
-    let degree = |keypoint: u32| incidence.of(keypoint).len();
     // Each branch but closed ones has two ends.
-    let n_ends: usize = (0..n).map(degree).filter(|&degree| degree != 2).sum();
+    let n_ends: usize = (0..n).map(|k| around.degree(k)).filter(|&degree| degree != 2).sum();
     let mut branches = Branches {
         axis,
         passed: Vec::with_capacity(n_paths),
-        pieces: Vec::with_capacity(n_paths),
+        // Those with a neck are two pieces.
+        pieces: Vec::with_capacity(n_paths + n_paths / 4),
         records: Vec::with_capacity(n_ends / 2),
     };
     let mut is_used = vec![false; n_paths];
-    let mut follow = |start: u32, number: u32, is_closed: bool| {
-        if is_used[number as usize] {
-            return;
-        }
-        let mut open = branches.begin(is_closed);
-        let (mut keypoint, mut number) = (start, number);
-        loop {
-            is_used[number as usize] = true;
-            let path = axis.paths().at(number);
-            // A loop at one keypoint is passed from its start.
-            let forwards = path.from == keypoint;
-            let path = if forwards { path } else { path.reversed() };
-            branches.pass(&mut open, 2 * number + u32::from(!forwards), &path);
-            keypoint = path.to;
-            let around = incidence.of(keypoint);
-            if around.len() != 2 {
-                break;
-            }
-            let Some(&next) = around.iter().find(|&&k| !is_used[k as usize]) else { break };
-            number = next;
-        }
-        branches.finish(&open);
-    };
-    let leaves = (0..n).filter(|&k| degree(k) == 1);
-    let junctions = (0..n).filter(|&k| degree(k) > 2);
-    for keypoint in leaves.chain(junctions) {
-        for &number in incidence.of(keypoint) {
-            follow(keypoint, number, false);
+    for keypoint in 0..n {
+        if around.degree(keypoint) == 1 {
+            branches.follow(&around, &mut is_used, [keypoint, around.first(keypoint)], false);
         }
     }
-    for keypoint in (0..n).filter(|&k| degree(k) == 2) {
-        follow(keypoint, incidence.of(keypoint)[0], true);
+    for keypoint in 0..n {
+        if around.degree(keypoint) > 2 {
+            for number in around.of(keypoint) {
+                branches.follow(&around, &mut is_used, [keypoint, number], false);
+            }
+        }
+    }
+    if branches.passed.len() < n_paths {
+        for keypoint in (0..n).filter(|&k| around.degree(k) == 2) {
+            branches.follow(&around, &mut is_used, [keypoint, around.first(keypoint)], true);
+        }
     }
     branches
 }
 
 /// A branch that is not at its end yet.
-#[derive(Default)]
 struct Open {
-    /// Where it starts in the tables of paths and pieces.
-    passed: u32,
-    pieces: u32,
-    is_closed: bool,
+    /// Where its pieces start in their table.
+    pieces: usize,
     sum: Sum,
-    piece: Sum,
-    banks: [Bank; 2],
-    /// The point of the axis where it ends so far.
-    to: Point,
+    /// That of its last piece, if that has more than one part.
+    piece: Option<Sum>,
 }
 
 /// The boundary on one side of a branch so far: its last site, and where on that it is met first.
-#[derive(Clone, Copy, Default)]
+#[derive(Clone, Copy)]
 struct Bank {
-    site: Option<u32>,
+    site: u32,
     first: Point,
     length: f64,
 }
+
+/// No site yet.
+const NONE: u32 = u32::MAX;
 
 impl<'a> Branches<'a> {
     /// How many there are.
@@ -270,62 +252,97 @@ impl<'a> Branches<'a> {
         (0..self.records.len()).map(|number| Branch { all: self, number })
     }
 
-    fn begin(&self, is_closed: bool) -> Open {
-        let (passed, pieces) = (self.passed.len() as u32, self.pieces.len() as u32);
-        Open { passed, pieces, is_closed, ..Open::default() }
+    /// Adds the branch that leaves a keypoint by a path, unless that is passed already.
+    fn follow(
+        &mut self,
+        around: &Incidence,
+        is_used: &mut [bool],
+        [start, number]: [u32; 2],
+        is_closed: bool,
+    ) {
+        if is_used[number as usize] {
+            return;
+        }
+        let axis = self.axis;
+        let (passed, pieces) = (self.passed.len() as u32, self.pieces.len());
+        let mut open = Open { pieces, sum: Sum::NOTHING, piece: None };
+        let mut banks = [Bank { site: NONE, first: Point::default(), length: 0.0 }; 2];
+        let (mut keypoint, mut number) = (start, number);
+        loop {
+            is_used[number as usize] = true;
+            let path = axis.paths().at(number);
+            // A loop at one keypoint is passed from its start.
+            let forwards = path.from == keypoint;
+            let path = if forwards { path } else { path.reversed() };
+            let sites = [path.left, path.right].map(|site| axis.site_shape(site));
+            let disks = [path.from, path.to].map(|keypoint| {
+                let end = axis.keypoints().at(keypoint);
+                (end.position, end.radius)
+            });
+            banks[0].pass(path.left, &sites[0], disks[0].0);
+            banks[1].pass(path.right, &sites[1], disks[0].0);
+            self.passed.push(2 * number + u32::from(!forwards));
+            self.pass(&mut open, &sites, disks);
+            keypoint = path.to;
+            if let Some(next) = around.next(keypoint, is_used) {
+                number = next;
+                continue;
+            }
+            self.end_piece(&mut open);
+            let boundary =
+                [0, 1].map(|side| banks[side].length_up_to(&sites[side], disks[1].0));
+            let (extent, pieces) = (open.sum.extent(), pieces as u32);
+            self.records.push(BranchRecord { passed, pieces, is_closed, extent, boundary });
+            return;
+        }
     }
 
-    /// Adds a path at the end of the branch that is open.
-    fn pass(&mut self, open: &mut Open, number: u32, path: &Path) {
-        let axis = self.axis;
-        let sites = [path.left, path.right].map(|site| axis.site_shape(site));
-        let ends = [path.from, path.to].map(|keypoint| axis.keypoints().at(keypoint));
-        let disks = ends.map(|end| (end.position, end.radius));
-        let curve = axis.curve_between(&sites, disks);
-        for ((bank, site), number) in open.banks.iter_mut().zip(&sites).zip([path.left, path.right])
-        {
-            bank.pass(number, site, disks[0].0);
+    /// Adds a path between these sites at the end of the branch that is open.
+    fn pass(&mut self, open: &mut Open, sites: &[SiteShape; 2], disks: [(Point, f64); 2]) {
+        let place = self.passed.len() as u32 - 1;
+        if let [SiteKind::Edge, SiteKind::Edge] = [sites[0].kind, sites[1].kind] {
+            let kind = kind_between_edges(sites);
+            return self.add(open, kind, place, [false; 2], &Extent::of_line(disks));
         }
-        open.to = disks[1].0;
-        let place = self.passed.len() as u32;
-        self.passed.push(number);
+        let curve = self.axis.curve_between(sites, disks);
         match curve.neck() {
             None => {
-                let kind = kind(&sites, &curve, None);
-                self.add(open, kind, place, [false; 2], &curve);
+                let kind = kind_at_corner(sites, trend(curve.grows_at(0.5)));
+                self.add(open, kind, place, [false; 2], &Extent::of(&curve));
             }
             // On one side of the neck it closes, on the other it opens.
             Some(neck) => {
-                let (first, second) = (curve.piece(0.0, neck), curve.piece(neck, 1.0));
-                let of = |curve, trend| kind(&sites, curve, Some(trend));
-                let (closing, opening) = (of(&first, Trend::Closing), of(&second, Trend::Opening));
+                let halves = [curve.piece(0.0, neck), curve.piece(neck, 1.0)];
+                let [first, second] = halves.map(|half| Extent::of(&half));
+                let [closing, opening] =
+                    [Trend::Closing, Trend::Opening].map(|trend| kind_at_corner(sites, trend));
                 self.add(open, closing, place, [false, true], &first);
                 self.add(open, opening, place, [true, false], &second);
             }
         }
     }
 
-    /// Adds a curve on which the radius is monotone.
-    fn add(&mut self, open: &mut Open, kind: Kind, place: u32, at_neck: [bool; 2], curve: &Curve) {
-        let extent = Extent::of(curve);
-        open.sum.add(&extent);
-        let goes_on = self.pieces.len() > open.pieces as usize;
+    /// Adds a part on which the radius is monotone.
+    #[inline]
+    fn add(&mut self, open: &mut Open, kind: Kind, place: u32, at_neck: [bool; 2], next: &Extent) {
+        open.sum.add(next);
+        let goes_on = self.pieces.len() > open.pieces;
         if let Some(last) = self.pieces.last_mut().filter(|last| goes_on && last.kind == kind) {
-            open.piece.add(&extent);
+            open.piece.get_or_insert_with(|| Sum::of(&last.extent)).add(next);
             (last.passed[1], last.at_neck[1]) = (place, at_neck[1]);
-            last.extent = open.piece.extent();
             return;
         }
-        open.piece = Sum::default();
-        open.piece.add(&extent);
-        self.pieces.push(PieceRecord { kind, extent, passed: [place; 2], at_neck });
+        self.end_piece(open);
+        self.pieces.push(PieceRecord { kind, extent: *next, passed: [place; 2], at_neck });
     }
 
-    fn finish(&mut self, open: &Open) {
-        let &Open { passed, pieces, is_closed, .. } = open;
-        let boundary = open.banks.map(|bank| bank.length_up_to(self.axis, open.to));
-        let extent = open.sum.extent();
-        self.records.push(BranchRecord { passed, pieces, is_closed, extent, boundary });
+    /// Says what the extent of the last piece is.
+    fn end_piece(&mut self, open: &mut Open) {
+        if let Some(sum) = open.piece.take()
+            && let Some(last) = self.pieces.last_mut()
+        {
+            last.extent = sum.extent();
+        }
     }
 
     fn path(&self, passed: u32) -> Path {
@@ -336,21 +353,30 @@ impl<'a> Branches<'a> {
 
 impl Bank {
     /// Goes on along a site, from the footpoint of a point.
+    #[inline]
     fn pass(&mut self, number: u32, site: &SiteShape, from: Point) {
-        if self.site != Some(number) {
-            let first = foot_on(site.a, site.b, from);
-            if self.site.is_some() {
+        if self.site != number {
+            let first = foot(site, from);
+            if self.site != NONE {
                 self.length += (first - self.first).norm();
             }
-            (self.site, self.first) = (Some(number), first);
+            (self.site, self.first) = (number, first);
         }
     }
 
-    /// Its length up to the footpoint of a point.
-    fn length_up_to(&self, axis: &MedialAxis, to: Point) -> f64 {
-        let Some(site) = self.site else { return 0.0 };
-        let SiteShape { a, b, .. } = axis.site_shape(site);
-        self.length + (foot_on(a, b, to) - self.first).norm()
+    /// Its length up to the footpoint of a point, on its last site.
+    #[inline]
+    fn length_up_to(&self, site: &SiteShape, to: Point) -> f64 {
+        self.length + (foot(site, to) - self.first).norm()
+    }
+}
+
+/// The footpoint of a point on a site.
+#[inline]
+fn foot(site: &SiteShape, from: Point) -> Point {
+    match site.kind {
+        SiteKind::Vertex => site.a,
+        SiteKind::Edge => foot_on(site.a, site.b, from),
     }
 }
 
@@ -507,21 +533,25 @@ impl fmt::Debug for BranchPiece<'_> {
     }
 }
 
-/// The primitive of a curve with these governors, left and right, on which the radius is monotone.
-fn kind(sites: &[SiteShape; 2], curve: &Curve, trend: Option<Trend>) -> Kind {
-    let trend_of = |opens: bool| if opens { Trend::Opening } else { Trend::Closing };
-    let [left, right] = sites;
-    if left.kind == SiteKind::Edge && right.kind == SiteKind::Edge {
-        // One of them runs in the direction of the path and the other against it: inside the right one
-        // does, outside the left one.
-        let turn = cross_directions(right.a, right.b, left.b, left.a);
-        return if turn == 0.0 {
-            (Primitive::Worm, None, Bend::Straight)
-        } else {
-            (Primitive::Wedge, Some(trend_of(turn > 0.0)), Bend::Straight)
-        };
+fn trend(opens: bool) -> Trend {
+    if opens { Trend::Opening } else { Trend::Closing }
+}
+
+/// The primitive of a line between two edges, left and right.
+fn kind_between_edges([left, right]: &[SiteShape; 2]) -> Kind {
+    // One of them runs in the direction of the path and the other against it: inside the right one does,
+    // outside the left one.
+    let turn = cross_directions(right.a, right.b, left.b, left.a);
+    if turn == 0.0 {
+        (Primitive::Worm, None, Bend::Straight)
+    } else {
+        (Primitive::Wedge, Some(trend(turn > 0.0)), Bend::Straight)
     }
-    let trend = trend.unwrap_or_else(|| trend_of(curve.grows_at(0.5)));
+}
+
+/// The primitive of a curve with these governors, left and right, one of them a corner, on which the radius
+/// is monotone.
+fn kind_at_corner([left, right]: &[SiteShape; 2], trend: Trend) -> Kind {
     let bend = match (left.kind, right.kind, trend) {
         (SiteKind::Vertex, SiteKind::Vertex, _) => Bend::Straight,
         (SiteKind::Vertex, _, Trend::Opening) => Bend::SpiralOutLeft,
@@ -533,15 +563,21 @@ fn kind(sites: &[SiteShape; 2], curve: &Curve, trend: Option<Trend>) -> Kind {
 }
 
 impl Extent {
-    const NOTHING: Self = Self {
-        length: 0.0,
-        area: 0.0,
-        radius_start: 0.0,
-        radius_end: 0.0,
-        radius_min: 0.0,
-        radius_max: 0.0,
-        radius_mean: 0.0,
-    };
+    /// That of a line between two edges with these disks at its ends.
+    fn of_line([from, to]: [(Point, f64); 2]) -> Self {
+        let (r1, r2) = (from.1, to.1);
+        let (length, rise) = ((to.0 - from.0).norm(), r2 - r1);
+        Self {
+            length,
+            // Two trapezoids.
+            area: ((length - rise) * (length + rise)).max(0.0).sqrt() * (r1 + r2),
+            radius_start: r1,
+            radius_end: r2,
+            radius_min: lesser(r1, r2),
+            radius_max: greater(r1, r2),
+            radius_mean: 0.5 * (r1 + r2),
+        }
+    }
 
     fn of(curve: &Curve) -> Self {
         let (length, radius_mean) = curve.length_and_mean();
@@ -558,44 +594,75 @@ impl Extent {
 }
 
 /// The extents of parts that follow one another.
-#[derive(Clone, Copy, Default)]
+#[derive(Clone, Copy)]
 struct Sum {
     length: f64,
     area: f64,
     /// The radius summed along the length.
     moment: f64,
     /// The radius where the first starts, and where the last ends; the least, the greatest.
-    ends: Option<[f64; 2]>,
+    start: f64,
+    end: f64,
     least: f64,
     greatest: f64,
 }
 
 impl Sum {
+    /// The sum of nothing.
+    const NOTHING: Self = Self {
+        length: 0.0,
+        area: 0.0,
+        moment: 0.0,
+        start: 0.0,
+        end: 0.0,
+        least: f64::INFINITY,
+        greatest: 0.0,
+    };
+
+    fn of(first: &Extent) -> Self {
+        let mut sum = Self::NOTHING;
+        sum.add(first);
+        sum
+    }
+
+    #[inline]
     fn add(&mut self, next: &Extent) {
+        // Nothing is greater than any radius only as long as there is nothing.
+        self.start = if self.least == f64::INFINITY { next.radius_start } else { self.start };
+        self.end = next.radius_end;
         self.length += next.length;
         self.area += next.area;
         self.moment += next.length * next.radius_mean;
-        let is_first = self.ends.is_none();
-        self.ends = Some([self.ends.map_or(next.radius_start, |ends| ends[0]), next.radius_end]);
-        self.least = if is_first { next.radius_min } else { self.least.min(next.radius_min) };
-        self.greatest = self.greatest.max(next.radius_max);
+        self.least = lesser(self.least, next.radius_min);
+        self.greatest = greater(self.greatest, next.radius_max);
     }
 
+    #[inline]
     fn extent(&self) -> Extent {
-        let Self { length, area, moment, least, greatest, .. } = *self;
-        let Some([radius_start, radius_end]) = self.ends else { return Extent::NOTHING };
+        let Self { length, area, moment, start, end, least, greatest } = *self;
         let mean = if length > 0.0 { moment / length } else { greatest };
-        let radius_mean = mean.clamp(least, greatest);
         Extent {
             length,
             area,
-            radius_start,
-            radius_end,
+            radius_start: start,
+            radius_end: end,
             radius_min: least,
             radius_max: greatest,
-            radius_mean,
+            radius_mean: lesser(greater(mean, least), greatest),
         }
     }
+}
+
+/// The lesser of two numbers, as machines have it.
+#[inline]
+fn lesser(a: f64, b: f64) -> f64 {
+    if a < b { a } else { b }
+}
+
+/// The greater of two numbers, as machines have it.
+#[inline]
+fn greater(a: f64, b: f64) -> f64 {
+    if a > b { a } else { b }
 }
 
 impl BoundaryPiece {

@@ -10,7 +10,7 @@
 //!
 //! All of it takes O(n).
 
-use crate::axis::{KeypointKind, MedialAxis};
+use crate::axis::{KeypointKind, MedialAxis, Path};
 
 /// Which way the fire runs through a path.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -18,10 +18,25 @@ pub(super) enum Way {
     /// From its start to its end, or the other way.
     Forwards,
     Backwards,
-    /// From both ends: they meet so far from the start.
-    Both(f64),
+    /// From both ends.
+    Both,
     /// It does not.
     Never,
+}
+
+/// A path that burns from one end to the other, in that direction.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Step {
+    /// Twice the number of the path, and one more if it burns from its end.
+    pub dart: u32,
+    /// The keypoints where it burns first and last.
+    pub from: u32,
+    pub to: u32,
+    /// The sites to its left and to its right.
+    pub left: u32,
+    pub right: u32,
+    /// The place of the keypoint where it ends.
+    pub next: u32,
 }
 
 /// The fire through a whole axis.
@@ -35,6 +50,13 @@ pub(super) struct Fire {
     pub lengths: Vec<f64>,
     /// Paths in an order in which each one comes after those that light it.
     pub order: Vec<u32>,
+    /// Those that burn from one end to the other, in the same order. The keypoint where each starts has its
+    /// number for a place.
+    pub steps: Vec<Step>,
+    /// How many keypoints have a place.
+    pub n_places: usize,
+    /// Paths that burn from both ends, so far from the start as they meet, and the places of their ends.
+    pub both: Vec<(u32, f64, [u32; 2])>,
     /// Keypoints that burn last in their tree.
     pub roots: Vec<u32>,
 }
@@ -71,20 +93,24 @@ impl Fire {
         let nothing = f64::NEG_INFINITY;
         let none = Arrivals { left: 0, numbers: 0, last: nothing, by: NONE, before: nothing };
         let mut arrivals = vec![none; keypoints.len()];
-        let mut lengths = Vec::with_capacity(axis.paths().len());
+        let mut paths = Vec::with_capacity(axis.paths().len());
         for (number, path) in (0..).zip(axis.paths()) {
-            lengths.push(axis.length_of(&path));
+            paths.push(path);
             for end in [path.from, path.to] {
                 let arrivals = &mut arrivals[end as usize];
                 arrivals.left += 1;
                 arrivals.numbers ^= number;
             }
         }
+        let lengths = axis.lengths(&paths);
         let mut fire = Self {
             times: vec![f64::INFINITY; keypoints.len()],
             ways: vec![Way::Never; lengths.len()],
             order: Vec::with_capacity(lengths.len()),
             lengths,
+            steps: Vec::new(),
+            n_places: 0,
+            both: Vec::new(),
             roots: Vec::new(),
         };
         let is_clipped = |k: u32| keypoints.at(k).kind == KeypointKind::Clipped;
@@ -113,7 +139,43 @@ impl Fire {
             fire.order.retain(|&path| !is_turned[path as usize]);
             fire.order.extend(turned);
         }
+        fire.find_places(&paths);
         fire
+    }
+
+    /// Lists the steps, and gives places to the keypoints on their ways.
+    fn find_places(&mut self, paths: &[Path]) {
+        let mut places = vec![NONE; self.times.len()];
+        self.steps.reserve(self.order.len());
+        for &number in &self.order {
+            let backwards = match self.ways[number as usize] {
+                Way::Forwards => false,
+                Way::Backwards => true,
+                Way::Both | Way::Never => continue,
+            };
+            let path = paths[number as usize];
+            let Path { from, to, left, right } = if backwards { path.reversed() } else { path };
+            places[from as usize] = self.steps.len() as u32;
+            let dart = 2 * number + u32::from(backwards);
+            self.steps.push(Step { dart, from, to, left, right, next: NONE });
+        }
+        let mut n_places = self.steps.len() as u32;
+        let mut place = |keypoint: u32| {
+            let place = &mut places[keypoint as usize];
+            if *place == NONE {
+                *place = n_places;
+                n_places += 1;
+            }
+            *place
+        };
+        for step in &mut self.steps {
+            step.next = place(step.to);
+        }
+        for (number, _, ends) in &mut self.both {
+            let Path { from, to, .. } = paths[*number as usize];
+            *ends = [place(from), place(to)];
+        }
+        self.n_places = n_places as usize;
     }
 
     /// Burns from a leaf as far as nothing else has to come before; gives the keypoint where a whole tree
@@ -169,7 +231,8 @@ impl Fire {
             if gone > 0.0 {
                 if gone < length {
                     let gone = if path.from == child { gone } else { length - gone };
-                    self.ways[by as usize] = Way::Both(gone);
+                    self.ways[by as usize] = Way::Both;
+                    self.both.push((by, gone, [NONE; 2]));
                     turned.push(by);
                 } else {
                     self.times[keypoint as usize] = last;

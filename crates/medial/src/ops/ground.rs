@@ -76,11 +76,11 @@ impl<'a> Ground<'a> {
         let mut governor = |site: axis::Site| -> Result<Site, Name> {
             /// Corners without a cell between two that have one, mostly.
             const NEAR: usize = 4;
-            let ahead = (next..n_elements.min(next + NEAR)).map(&element);
-            let ahead = (next..).zip(ahead).find(|&(_, e)| self.is_named(e, &site));
-            if let Some((place, element)) = ahead {
-                next = place + 1;
-                return Ok(element);
+            for place in next..n_elements.min(next + NEAR) {
+                if self.is_named(element(place), &site) {
+                    next = place + 1;
+                    return Ok(element(place));
+                }
             }
             let names = sorted.get_or_insert_with(|| {
                 let named = |site| (Name::of(self.domain(), site), site);
@@ -122,7 +122,7 @@ impl<'a> Ground<'a> {
     }
 
     /// Whether an axis lists an element so.
-    #[inline]
+    #[inline(always)]
     fn is_named(&self, element: Site, site: &axis::Site) -> bool {
         let domain = self.domain();
         // The interior of the polygons is on the left, whatever the side.
@@ -130,11 +130,14 @@ impl<'a> Ground<'a> {
             Self::Inside(_) => (site.a, site.b),
             Self::Outside(_) => (site.b, site.a),
         };
+        let is_edge = element.is_edge();
+        if is_edge != (site.kind == SiteKind::Edge) {
+            return false;
+        }
         let edge = domain.edge(element.index());
         // The name takes longest.
-        element.is_edge() == (site.kind == SiteKind::Edge)
-            && edge.start == start
-            && end == if element.is_edge() { domain.end(element.index()) } else { start }
+        edge.start == start
+            && end == if is_edge { domain.edge(edge.next).start } else { start }
             && Name::of(domain, element) == Name::from(site)
     }
 

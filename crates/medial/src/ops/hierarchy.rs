@@ -27,7 +27,7 @@ use std::cell::{Cell, OnceCell};
 use std::ops::Range;
 use std::sync::OnceLock;
 
-use super::fire::{Fire, Way};
+use super::fire::{Fire, Step};
 use super::ground::Ground;
 use super::measure::Measure;
 use super::rest::{Pruned, Rest};
@@ -65,7 +65,8 @@ pub struct Hierarchy<'a> {
     pub(super) given: &'a Domain,
     ground: Ground<'a>,
     pub(super) axis: &'a MedialAxis,
-    governors: Vec<Site>,
+    /// The element behind each site, and the first corner behind what has it on the left.
+    governors: Vec<(Site, u32)>,
     pub(super) fire: Fire,
     /// For each edge the length of the boundary from the start of its walk to the edge, once it is asked for.
     before: OnceLock<Vec<f64>>,
@@ -127,7 +128,7 @@ impl Removal {
 /// A path, or the part of one up to the root, seen from the leaves.
 pub(super) struct Limb<'h> {
     hierarchy: &'h Hierarchy<'h>,
-    path: Path,
+    step: Step,
     left: Site,
     right: Site,
     /// The first corner of the boundary behind.
@@ -136,8 +137,7 @@ pub(super) struct Limb<'h> {
     disks: [(Point, f64); 2],
     /// Made when something between the two is asked for.
     curve: OnceCell<Curve>,
-    /// When its start burns, and the longest way to a leaf there.
-    time: f64,
+    /// The longest way to a leaf at its start.
     reach: f64,
     /// The squared distance of the farthest corner behind that was found last, and which it was: mostly
     /// it stays the same along the way.
@@ -153,6 +153,9 @@ const NONE: u32 = u32::MAX;
 
 /// Corners up to which each is asked how far it is.
 const FEW: u32 = 16;
+
+/// No corner behind yet.
+pub(super) const NO_FAR: (f64, u32) = (0.0, NONE);
 
 /// A path, or a part of one, that burns in one direction.
 pub(super) struct Part {
@@ -197,6 +200,12 @@ impl<'a> Hierarchy<'a> {
     /// If the axis is not exact, or pruned, or not of this domain.
     pub fn new(domain: &'a Domain, axis: &'a MedialAxis) -> Result<Self, HierarchyError> {
         let (ground, governors) = grounded(domain, axis)?;
+        let edges = ground.domain().edges();
+        let first = |site: Site| {
+            let index = site.index();
+            if site.is_edge() { edges[index as usize].next } else { index }
+        };
+        let governors = governors.into_iter().map(|site| (site, first(site))).collect();
         let fire = Fire::new(axis);
         let (before, tree, swallowing) = (OnceLock::new(), OnceLock::new(), OnceLock::new());
         Ok(Self { given: domain, ground, axis, governors, fire, before, tree, swallowing })
@@ -242,24 +251,18 @@ impl<'a> Hierarchy<'a> {
         way + before[last as usize] + domain.edge(last).length
     }
 
-    /// The path as the fire runs through it from one end.
-    fn limb(&self, path: &Path, time: f64, reach: f64, far: (f64, u32)) -> Limb<'_> {
-        let governor = |site: u32| self.governors[site as usize];
-        let (left, right) = (governor(path.left), governor(path.right));
-        let start = left.index();
-        let disk = |keypoint: u32| {
-            let Keypoint { position, radius, .. } = self.axis.keypoints().at(keypoint);
-            (position, radius)
-        };
+    /// The path as the fire runs through it from one end, with what is known there.
+    pub(super) fn limb(&self, step: &Step, reach: f64, far: (f64, u32)) -> Limb<'_> {
+        let [(left, first), (right, _)] =
+            [step.left, step.right].map(|site| self.governors[site as usize]);
         Limb {
             hierarchy: self,
-            path: *path,
+            step: *step,
             left,
             right,
-            first: if left.is_edge() { self.ground.domain().edge(start).next } else { start },
-            disks: [disk(path.from), disk(path.to)],
+            first,
+            disks: [step.from, step.to].map(|keypoint| self.disk(keypoint)),
             curve: OnceCell::new(),
-            time,
             reach,
             far: Cell::new(far),
             far_from: Cell::new(None),
@@ -267,57 +270,54 @@ impl<'a> Hierarchy<'a> {
         }
     }
 
-    /// Goes through all parts of paths that burn, those nearer to the leaves first. `done` gets each, with
-    /// the largest value that comes from the leaves, and gives that at its end. Beyond a value that is
-    /// enough nothing is asked any more.
-    pub(super) fn burn(&self, enough: f64, mut done: impl FnMut(&Part, &Limb<'_>, f64) -> f64) {
-        let n = self.axis.keypoints().len();
-        let (mut values, mut reaches) = (vec![0.0_f64; n], vec![0.0_f64; n]);
-        let mut fars = vec![(0.0, NONE); n];
-        let mut both = Vec::new();
-        for &number in &self.fire.order {
-            let forwards = match self.fire.ways[number as usize] {
-                Way::Forwards => true,
-                Way::Backwards => false,
-                Way::Both(length) => {
-                    both.push((number, length));
-                    continue;
-                }
-                Way::Never => continue,
-            };
-            let [start, end] = self.axis.paths().ends(number).map(|keypoint| keypoint as usize);
-            let (from, to) = if forwards { (start, end) } else { (end, start) };
-            if values[from] >= enough {
-                values[to] = values[to].max(values[from]);
-                continue;
-            }
-            let path = self.axis.paths().at(number);
-            let path = if forwards { path } else { path.reversed() };
-            let limb = self.limb(&path, self.fire.times[from], reaches[from], fars[from]);
-            let (end, root) = (1.0, None);
-            let part = Part { path: number, forwards, from: path.from, to: path.to, end, root };
-            let value = done(&part, &limb, values[from]);
-            values[to] = values[to].max(value);
-            if limb.far.get().0 > fars[to].0 {
-                fars[to] = limb.far.get();
-            }
-            reaches[to] = reaches[to].max(reaches[from] + self.fire.lengths[number as usize]);
-        }
-        for (number, length) in both {
+    /// The parts of the paths that burn from both ends, each with the place of the keypoint where it starts.
+    pub(super) fn rooted(&self) -> impl Iterator<Item = (Part, Step, u32)> {
+        self.fire.both.iter().flat_map(|&(number, length, places)| {
             let path = self.axis.paths().at(number);
             // Inside, whatever the rounding.
             let root = self.axis.curve(&path).parameter_at_length(length);
             let root = root.clamp(f64::EPSILON, 1.0 - f64::EPSILON);
-            for (path, end, forwards) in [(path, root, true), (path.reversed(), 1.0 - root, false)]
-            {
-                let from = path.from as usize;
-                if values[from] >= enough {
-                    continue;
-                }
-                let limb = self.limb(&path, self.fire.times[from], reaches[from], fars[from]);
-                let root = Some(root);
-                let part = Part { path: number, forwards, from: path.from, to: path.to, end, root };
-                done(&part, &limb, values[from]);
+            [(path, root, true), (path.reversed(), 1.0 - root, false)].map(
+                |(path, end, forwards)| {
+                    let Path { from, to, left, right } = path;
+                    let [place, next] = if forwards { places } else { [places[1], places[0]] };
+                    let dart = 2 * number + u32::from(!forwards);
+                    let root = Some(root);
+                    let part = Part { path: number, forwards, from, to, end, root };
+                    (part, Step { dart, from, to, left, right, next }, place)
+                },
+            )
+        })
+    }
+
+    /// Goes through all parts of paths that burn, those nearer to the leaves first. `done` gets each, with
+    /// the largest value that comes from the leaves, and gives that at its end. Beyond a value that is
+    /// enough nothing is asked any more.
+    pub(super) fn burn(&self, enough: f64, mut done: impl FnMut(&Part, &Limb<'_>, f64) -> f64) {
+        let n = self.fire.n_places;
+        let (mut values, mut reaches) = (vec![0.0_f64; n], vec![0.0_f64; n]);
+        let mut fars = vec![NO_FAR; n];
+        for (place, step) in self.fire.steps.iter().enumerate() {
+            let next = step.next as usize;
+            if values[place] >= enough {
+                values[next] = values[next].max(values[place]);
+                continue;
+            }
+            let limb = self.limb(step, reaches[place], fars[place]);
+            let (path, forwards) = (step.dart / 2, step.dart.is_multiple_of(2));
+            let part = Part { path, forwards, from: step.from, to: step.to, end: 1.0, root: None };
+            let value = done(&part, &limb, values[place]);
+            values[next] = values[next].max(value);
+            if limb.far.get().0 > fars[next].0 {
+                fars[next] = limb.far.get();
+            }
+            reaches[next] = reaches[next].max(reaches[place] + self.fire.lengths[path as usize]);
+        }
+        for (part, step, place) in self.rooted() {
+            let place = place as usize;
+            if values[place] < enough {
+                let limb = self.limb(&step, reaches[place], fars[place]);
+                done(&part, &limb, values[place]);
             }
         }
     }
@@ -328,6 +328,63 @@ impl<'a> Hierarchy<'a> {
             done(part, limb);
             0.0
         });
+    }
+
+    /// The disk of a keypoint.
+    #[inline]
+    pub(super) fn disk(&self, keypoint: u32) -> (Point, f64) {
+        let Keypoint { position, radius, .. } = self.axis.keypoints().at(keypoint);
+        (position, radius)
+    }
+
+    /// The squared distance of the farthest of the corners behind a path that burns, and which it is; one
+    /// that was far before saves most of a search.
+    #[inline]
+    pub(super) fn farthest_behind(&self, step: &Step, from: Point, known: u32) -> (f64, u32) {
+        let first = self.governors[step.left as usize].1;
+        let last = self.governors[step.right as usize].0.index();
+        self.farthest((first, last), from, known)
+    }
+
+    /// The same for the corners from one to another one, along their walk.
+    #[inline]
+    fn farthest(&self, (first, last): (u32, u32), from: Point, known: u32) -> (f64, u32) {
+        if first <= last && last - first < FEW {
+            let domain = self.ground.domain();
+            let mut farthest = Farthest { domain, from, distance2: 0.0, corner: first };
+            (first..=last).for_each(|corner| farthest.item(corner));
+            return (farthest.distance2, farthest.corner);
+        }
+        self.search_far((first, last), from, known)
+    }
+
+    /// The same for any number of them, or around the start of their walk.
+    fn search_far(&self, (first, last): (u32, u32), from: Point, known: u32) -> (f64, u32) {
+        let domain = self.ground.domain();
+        let mut farthest = Farthest { domain, from, distance2: 0.0, corner: first };
+        let ranges = if first <= last {
+            [first..last + 1, 0..0]
+        } else {
+            let walk = domain.walks()[domain.edge(first).walk as usize];
+            [first..walk.edges().end, walk.first..last + 1]
+        };
+        if ranges.iter().map(ExactSizeIterator::len).sum::<usize>() <= FEW as usize {
+            ranges.into_iter().flatten().for_each(|corner| farthest.item(corner));
+            return (farthest.distance2, farthest.corner);
+        }
+        // One that is far saves most of the search.
+        let is_behind = ranges.iter().any(|range| range.contains(&known));
+        farthest.item(if is_behind { known } else { last });
+        for range in ranges.into_iter().filter(|range| !range.is_empty()) {
+            self.tree().visit_within(range, &mut farthest);
+        }
+        (farthest.distance2, farthest.corner)
+    }
+
+    /// The squared distance of a corner.
+    #[inline]
+    pub(super) fn distance2(&self, corner: u32, from: Point) -> f64 {
+        (self.ground.domain().edge(corner).start - from).norm2()
     }
 
     /// The side of the boundary that the axis is of.
@@ -410,38 +467,140 @@ impl<'a> Hierarchy<'a> {
     /// With [`Measure::Excess`] the threshold bounds the error.
     #[must_use]
     pub fn pruned(&self, measure: Measure, threshold: f64) -> Pruned {
-        if measure == Measure::Prominence {
-            return self.without_less_prominent(threshold);
-        }
         let (rest, lost) = self.rest(measure, threshold);
         rest.finish(&self.fire.roots, &lost)
     }
 
     /// What a threshold leaves, and what is lost up to keypoints.
     pub(super) fn rest(&self, measure: Measure, threshold: f64) -> (Rest<'_>, Vec<(u32, f64)>) {
-        let mut rest = Rest::of(self.axis);
-        // What is lost at a keypoint, if that is kept.
-        let mut lost: Vec<(u32, f64)> = Vec::new();
-        self.burn(threshold, |part, limb, before| {
-            let first = before.max(limb.first(measure));
-            if first >= threshold {
-                return first;
+        match measure {
+            Measure::Prominence => return self.without_less_prominent(threshold),
+            Measure::Excess | Measure::RelativeExcess if threshold > 0.0 => {
+                return self.rest_by_far(measure, threshold);
             }
-            let last = first.max(limb.most(measure, part.end));
-            let is_lost = last < threshold;
-            let cut = if is_lost { part.end } else { limb.reached(measure, threshold, part.end) };
-            let excess = limb.value(Measure::Excess, cut);
-            if is_lost && part.root.is_none() {
-                lost.push((part.to, excess));
-            } else {
-                rest.error = rest.error.max(excess);
+            _ => {}
+        }
+        let mut cuts = Cuts::of(self.axis);
+        self.burn(threshold, |part, limb, before| cuts.add(measure, threshold, part, limb, before));
+        (cuts.rest, cuts.lost)
+    }
+
+    /// The same for measures by the farthest corner behind: mostly one that was far before is far enough.
+    fn rest_by_far(&self, measure: Measure, threshold: f64) -> (Rest<'_>, Vec<(u32, f64)>) {
+        let n = self.fire.n_places;
+        let mut is_reached = vec![false; n];
+        let mut fars = vec![NO_FAR; n];
+        let mut cuts = Cuts::of(self.axis);
+        for (place, step) in self.fire.steps.iter().enumerate() {
+            let next = step.next as usize;
+            if is_reached[place] {
+                is_reached[next] = true;
+                continue;
             }
-            let along = if part.forwards { cut } else { 1.0 - cut };
-            let along = part.root.filter(|_| is_lost).unwrap_or(along);
-            rest.cut(part.path, part.forwards, along);
-            last
-        });
-        (rest, lost)
+            let (centre, radius) = self.disk(step.to);
+            let excess = |distance2: f64| (distance2.sqrt() - radius).max(0.0);
+            let value = |distance2: f64| match measure {
+                Measure::Excess => excess(distance2),
+                _ => ((distance2.sqrt() - radius) / radius).max(0.0),
+            };
+            let known = fars[place].1;
+            let mut is_enough =
+                known != NONE && value(self.distance2(known, centre)) >= threshold;
+            let mut far = fars[place];
+            if !is_enough {
+                far = self.farthest_behind(step, centre, known);
+                is_enough = value(far.0) >= threshold;
+            }
+            if !is_enough && self.may_have_neck(step) {
+                let limb = self.limb(step, 0.0, fars[place]);
+                let neck = limb.neck(1.0);
+                is_enough = neck.is_some_and(|neck| limb.value(measure, neck) >= threshold);
+            }
+            let (path, forwards) = (step.dart / 2, step.dart.is_multiple_of(2));
+            if is_enough {
+                is_reached[next] = true;
+                let limb = self.limb(step, 0.0, far);
+                let part =
+                    Part { path, forwards, from: step.from, to: step.to, end: 1.0, root: None };
+                cuts.add_reached(measure, threshold, &part, &limb);
+                continue;
+            }
+            cuts.lost.push((step.to, excess(far.0)));
+            cuts.rest.remove(path);
+            if far.0 > fars[next].0 {
+                fars[next] = far;
+            }
+        }
+        for (part, step, place) in self.rooted() {
+            let place = place as usize;
+            if !is_reached[place] {
+                cuts.add(measure, threshold, &part, &self.limb(&step, 0.0, fars[place]), 0.0);
+            }
+        }
+        (cuts.rest, cuts.lost)
+    }
+
+    /// Whether a path that burns has a corner among its governors.
+    #[inline]
+    pub(super) fn may_have_neck(&self, step: &Step) -> bool {
+        let is_edge = |site: u32| self.governors[site as usize].0.is_edge();
+        !(is_edge(step.left) && is_edge(step.right))
+    }
+}
+
+/// What a threshold leaves so far.
+struct Cuts<'a> {
+    rest: Rest<'a>,
+    /// What is lost at a keypoint, if that is kept.
+    lost: Vec<(u32, f64)>,
+}
+
+impl<'a> Cuts<'a> {
+    fn of(axis: &'a MedialAxis) -> Self {
+        Self { rest: Rest::of(axis), lost: Vec::new() }
+    }
+
+    /// Removes what is below a threshold of a part on which the largest value before is given; gives the
+    /// largest value up to its end.
+    fn add(
+        &mut self,
+        measure: Measure,
+        threshold: f64,
+        part: &Part,
+        limb: &Limb<'_>,
+        before: f64,
+    ) -> f64 {
+        let first = before.max(limb.first(measure));
+        if first >= threshold {
+            return first;
+        }
+        let last = first.max(limb.most(measure, part.end));
+        if last < threshold {
+            self.remove(part, limb, part.end, true);
+        } else {
+            self.remove(part, limb, limb.reached(measure, threshold, part.end), false);
+        }
+        last
+    }
+
+    /// The same for a part on which the threshold is reached for sure.
+    fn add_reached(&mut self, measure: Measure, threshold: f64, part: &Part, limb: &Limb<'_>) {
+        if limb.first(measure) < threshold {
+            self.remove(part, limb, limb.reached(measure, threshold, part.end), false);
+        }
+    }
+
+    /// Removes a part up to a parameter, which may be all of it.
+    fn remove(&mut self, part: &Part, limb: &Limb<'_>, cut: f64, is_lost: bool) {
+        let excess = limb.value(Measure::Excess, cut);
+        if is_lost && part.root.is_none() {
+            self.lost.push((part.to, excess));
+        } else {
+            self.rest.error = self.rest.error.max(excess);
+        }
+        let along = if part.forwards { cut } else { 1.0 - cut };
+        let along = part.root.filter(|_| is_lost).unwrap_or(along);
+        self.rest.cut(part.path, part.forwards, along);
     }
 }
 
@@ -502,7 +661,7 @@ impl Limb<'_> {
             let axis = self.hierarchy.axis;
             let site = |site: u32| axis.site_shape(site);
             let [from, to] = self.disks;
-            Curve::between(&site(self.path.left), &site(self.path.right), from, to)
+            Curve::between(&site(self.step.left), &site(self.step.right), from, to)
         })
     }
 
@@ -579,6 +738,11 @@ impl Limb<'_> {
             (None, Some(neck)) => (neck, end),
             (None, None) => (0.0, end),
         };
+        if measure == Measure::Excess
+            && let Some(place) = self.reached_from_corner(threshold, end)
+        {
+            return place;
+        }
         let at = |u: f64| low + (high - low) * u;
         // No more than the threshold is lost, unless that is reached at the very end.
         let last_below = |[before, after]: [f64; 2]| at(if after == 1.0 { after } else { before });
@@ -592,6 +756,32 @@ impl Limb<'_> {
             return at(bisected(missing));
         }
         last_below(crossing(missing))
+    }
+
+    /// The same for the excess on a line out of a corner that is all there is behind, along which it grows in
+    /// proportion: the last place that shows to be below the threshold, by a few ulp of 1 at most.
+    fn reached_from_corner(&self, threshold: f64, end: f64) -> Option<f64> {
+        /// Steps back from where it would be without rounding, each twice as long as the one before.
+        const STEPS: u32 = 5;
+        let (first, last) = self.corners();
+        let [(from, r1), (to, r2)] = self.disks;
+        let is_line = self.left.is_edge() && self.right.is_edge();
+        if !(is_line && first == last && r1 == 0.0) {
+            return None;
+        }
+        let mut u = threshold / ((to - from).norm() - r2);
+        let mut step = 0.5 * f64::EPSILON;
+        for _ in 0..STEPS {
+            u -= step;
+            if !(0.0 < u && u < end - 2.0 * f64::EPSILON) {
+                return None;
+            }
+            if self.excess(u) < threshold {
+                return Some(u);
+            }
+            step *= 2.0;
+        }
+        None
     }
 
     /// The excess at the start, from the corners behind all that ends there.
@@ -630,7 +820,9 @@ impl Limb<'_> {
             Measure::Potential => self.boundary(centre),
             Measure::Chord => self.boundary(centre) - self.chord(centre),
             Measure::Circularity => self.boundary(centre) - radius * behind(),
-            Measure::Erosion => self.time + length() - radius,
+            Measure::Erosion => {
+                self.hierarchy.fire.times[self.step.from as usize] + length() - radius
+            }
             Measure::Length => self.reach + length(),
             Measure::Angle => behind().min(std::f64::consts::TAU - behind()),
             Measure::HalfChord => radius * (0.5 * behind()).sin(),
@@ -682,47 +874,10 @@ impl Limb<'_> {
     #[inline]
     fn farthest(&self, centre: Point) -> f64 {
         if self.far_from.get() != Some(centre) {
-            let (first, last) = self.corners();
-            let is_few = first <= last && last - first < FEW;
-            let far = if is_few { self.farthest_of_few(centre) } else { self.search_far(centre) };
-            self.far.set(far);
+            let known = self.far.get().1;
+            self.far.set(self.hierarchy.farthest(self.corners(), centre, known));
             self.far_from.set(Some(centre));
         }
         self.far.get().0.sqrt()
-    }
-
-    /// The squared distance of the farthest corner behind, and which it is, where these are few in a row.
-    #[inline]
-    fn farthest_of_few(&self, from: Point) -> (f64, u32) {
-        let (first, last) = self.corners();
-        let domain = self.hierarchy.ground.domain();
-        let mut farthest = Farthest { domain, from, distance2: 0.0, corner: first };
-        (first..=last).for_each(|corner| farthest.item(corner));
-        (farthest.distance2, farthest.corner)
-    }
-
-    /// The same for any number of them, or around the start of their walk.
-    fn search_far(&self, from: Point) -> (f64, u32) {
-        let (first, last) = self.corners();
-        let domain = self.hierarchy.ground.domain();
-        let mut farthest = Farthest { domain, from, distance2: 0.0, corner: first };
-        let ranges = if first <= last {
-            [first..last + 1, 0..0]
-        } else {
-            let walk = domain.walks()[domain.edge(first).walk as usize];
-            [first..walk.edges().end, walk.first..last + 1]
-        };
-        if ranges.iter().map(ExactSizeIterator::len).sum::<usize>() <= FEW as usize {
-            ranges.into_iter().flatten().for_each(|corner| farthest.item(corner));
-            return (farthest.distance2, farthest.corner);
-        }
-        // One that is far saves most of the search.
-        let known = self.far.get().1;
-        let is_behind = ranges.iter().any(|range| range.contains(&known));
-        farthest.item(if is_behind { known } else { last });
-        for range in ranges.into_iter().filter(|range| !range.is_empty()) {
-            self.hierarchy.tree().visit_within(range, &mut farthest);
-        }
-        (farthest.distance2, farthest.corner)
     }
 }

@@ -156,7 +156,7 @@ impl<'a> Shape<'a> {
         let order = clockwise(domain, &ends, axis, &turns);
         for (k, &end) in order.iter().enumerate() {
             let next = order[if k + 1 < order.len() { k + 1 } else { 0 }];
-            horizon.inwards.extend(turns.leaving.of(next).first().map(|&dart| (end, dart)));
+            horizon.inwards.extend(turns.leaving(next).next().map(|dart| (end, dart)));
         }
         let mut components = Vec::new();
         if let Ground::Outside(outside) = radii.ground() {
@@ -191,7 +191,7 @@ fn clockwise(domain: &Domain, ends: &[u32], axis: &MedialAxis, turns: &Turns<'_>
     });
     // Where a cell between two of them is too thin for doubles, it says which is the first.
     let right = |k: u32, inwards: bool| {
-        let path = turns.leaving.of(k).first().map(|&dart| turns.path(dart));
+        let path = turns.leaving(k).next().map(|dart| turns.path(dart));
         path.map(|path| if inwards { path.right } else { path.left })
     };
     for k in 1..order.len() {
@@ -252,7 +252,7 @@ impl<'s, 'a> Level<'s, 'a> {
             }
             let (mut contours, mut open) = (Vec::new(), vec![start]);
             while let Some(keypoint) = open.pop() {
-                for &dart in shape.turns.leaving.of(keypoint) {
+                for dart in shape.turns.leaving(keypoint) {
                     let to = shape.turns.path(dart).to;
                     if self.limit.is_whole(dart / 2)
                         && !std::mem::replace(&mut is_met[to as usize], true)
@@ -290,7 +290,7 @@ impl<'s, 'a> Level<'s, 'a> {
         }
         for keypoint in 0..shape.axis.keypoints().len() as u32 {
             if self.limit.is_farther(keypoint) {
-                for &dart in shape.turns.leaving.of(keypoint) {
+                for dart in shape.turns.leaving(keypoint) {
                     if !self.is_passed[dart as usize] {
                         add(self.contour(dart)?);
                     }

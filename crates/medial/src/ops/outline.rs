@@ -16,7 +16,6 @@
 use std::collections::HashMap;
 use std::f64::consts::TAU;
 
-use super::groups::Groups;
 use super::reconstruct::signed_area;
 use crate::axis::{KeypointKind, MedialAxis, Path, Side, SiteKind, SiteShape};
 use crate::geom::{Point, orient2d};
@@ -169,7 +168,7 @@ impl Outline {
             }
             OutlinePolygon(contours)
         };
-        let components = turns.components(|darts| turns.contour(darts));
+        let components = turns.components(|around| turns.contour(around));
         Ok(Self { polygons: components.into_iter().map(polygon).collect() })
     }
 
@@ -333,54 +332,59 @@ pub(super) struct Component<C> {
 /// Ways around the keypoints. Path `k` is passed from its start as number `2k`, from its end as `2k + 1`.
 pub(super) struct Turns<'a> {
     axis: &'a MedialAxis,
-    /// What leaves each keypoint, counterclockwise.
-    pub leaving: Groups,
-    /// What follows each along the boundary on the right.
-    next: Vec<u32>,
+    /// For each governor of each keypoint what leaves that with it on the right, or [`EMPTY`].
+    places: Vec<u32>,
+    /// What follows each along the boundary on the right, and the governor that it has there.
+    darts: Vec<Dart>,
 }
+
+/// A path as it is passed.
+#[derive(Clone, Copy)]
+struct Dart {
+    next: u32,
+    right: u32,
+}
+
+/// Nothing leaves.
+const EMPTY: u32 = u32::MAX;
 
 impl<'a> Turns<'a> {
     pub fn new(axis: &'a MedialAxis) -> Result<Self, OutlineError> {
-        let n = axis.keypoints().len() as u32;
-        // Each keypoint has a place for each of its governors, for what leaves it with that on the right.
-        let mut first = Vec::with_capacity(n as usize + 1);
-        first.push(0);
-        let mut sum = 0;
-        for keypoint in 0..n {
-            sum += axis.governors(keypoint).len() as u32;
-            first.push(sum);
-        }
-        let mut places = vec![Groups::EMPTY; sum as usize];
+        let mut places = vec![EMPTY; axis.n_places()];
+        let mut darts = Vec::with_capacity(2 * axis.paths().len());
         let mut disordered: Option<u32> = None;
         let mut leave = |dart: u32, keypoint: u32, right: u32| {
-            let place = axis.governors(keypoint).iter().position(|&governor| governor == right);
-            let place = place.map(|k| &mut places[first[keypoint as usize] as usize + k]);
-            match place {
-                Some(place) if *place == Groups::EMPTY => *place = dart,
+            match axis.place_of(keypoint, right).map(|place| &mut places[place]) {
+                Some(place) if *place == EMPTY => *place = dart,
                 _ => disordered = Some(disordered.unwrap_or(keypoint).min(keypoint)),
             }
         };
         for (k, path) in (0..).zip(axis.paths()) {
             leave(2 * k, path.from, path.right);
             leave(2 * k + 1, path.to, path.left);
+            darts.extend([path.right, path.left].map(|right| Dart { next: EMPTY, right }));
         }
         if let Some(keypoint) = disordered {
             return Err(OutlineError::Disordered { keypoint });
         }
-        let leaving = Groups::in_places(first, places);
-        let mut next = vec![0; 2 * axis.paths().len()];
-        for keypoint in 0..n {
+        for keypoint in 0..axis.keypoints().len() as u32 {
             // What comes by one of them goes on by that after it.
-            let around = leaving.of(keypoint);
-            if let Some(&last) = around.last() {
+            let around = || places[axis.places(keypoint)].iter().filter(|dart| **dart != EMPTY);
+            if let Some(&last) = around().next_back() {
                 let mut before = last;
-                for &dart in around {
-                    next[before as usize ^ 1] = dart;
+                for &dart in around() {
+                    darts[before as usize ^ 1].next = dart;
                     before = dart;
                 }
             }
         }
-        Ok(Self { axis, leaving, next })
+        Ok(Self { axis, places, darts })
+    }
+
+    /// What leaves a keypoint, counterclockwise.
+    pub fn leaving(&self, keypoint: u32) -> impl DoubleEndedIterator<Item = u32> {
+        let around = &self.places[self.axis.places(keypoint)];
+        around.iter().copied().filter(|dart| *dart != EMPTY)
     }
 
     /// The path as it is passed.
@@ -391,41 +395,45 @@ impl<'a> Turns<'a> {
     }
 
     /// The keypoint to which it leads.
+    #[inline]
     fn end(&self, dart: u32) -> u32 {
-        let [from, to] = self.axis.paths().ends(dart / 2);
-        if dart.is_multiple_of(2) { to } else { from }
+        self.axis.paths().ends(dart / 2)[usize::from(dart.is_multiple_of(2))]
     }
 
     /// What follows along the boundary on the right.
+    #[inline]
     pub fn next(&self, dart: u32) -> u32 {
-        self.next[dart as usize]
+        self.darts[dart as usize].next
     }
 
     /// The components with their contours, each made of all that is passed with it on the right.
-    pub fn components<C>(&self, contour: impl Fn(&[u32]) -> C) -> Vec<Component<C>> {
+    pub fn components<C>(&self, contour: impl Fn(&mut Around<'_>) -> C) -> Vec<Component<C>> {
         let n = self.axis.keypoints().len();
         let mut is_met = vec![false; n];
-        let mut is_passed = vec![false; self.next.len()];
-        let mut left = self.next.len();
-        let (mut open, mut darts) = (Vec::new(), Vec::new());
+        let mut is_passed = vec![false; self.darts.len()];
+        let mut left = self.darts.len();
+        let mut open = Vec::new();
         let mut components = Vec::new();
         for start in 0..n as u32 {
             // Where all has been passed only keypoints without paths are left.
-            let is_done = left == 0 && !self.leaving.of(start).is_empty();
+            let is_done = left == 0 && self.leaving(start).next().is_some();
             if is_done || std::mem::replace(&mut is_met[start as usize], true) {
                 continue;
             }
             let mut component = Component { keypoint: start, contours: Vec::new() };
             open.push(start);
             while let Some(keypoint) = open.pop() {
-                for &dart in self.leaving.of(keypoint) {
+                for dart in self.leaving(keypoint) {
                     if !std::mem::replace(&mut is_met[self.end(dart) as usize], true) {
                         open.push(self.end(dart));
                     }
                     if !is_passed[dart as usize] {
-                        self.around(dart, &mut is_passed, &mut darts);
-                        left -= darts.len();
-                        component.contours.push(contour(&darts));
+                        let darts = &self.darts;
+                        let mut around =
+                            Around { darts, is_passed: &mut is_passed, next: dart, left };
+                        component.contours.push(contour(&mut around));
+                        around.by_ref().for_each(drop);
+                        left = around.left;
                     }
                 }
                 if left == 0 {
@@ -437,51 +445,94 @@ impl<'a> Turns<'a> {
         components
     }
 
-    /// What is passed with the same contour on the right, from a path on.
-    fn around(&self, start: u32, is_passed: &mut [bool], darts: &mut Vec<u32>) {
-        darts.clear();
-        let mut dart = start;
-        while !std::mem::replace(&mut is_passed[dart as usize], true) {
-            darts.push(dart);
-            dart = self.next(dart);
-        }
-    }
-
     /// The contour to the right of all these.
-    fn contour(&self, darts: &[u32]) -> Contour {
-        let mut pieces = Vec::new();
-        let site = |path: &Path| (path.right, self.axis.site_shape(path.right));
-        let Some(&first) = darts.first() else { return Contour(pieces) };
-        let first = self.path(first);
-        let (mut path, mut before) = (first, site(&first));
-        for next in darts[1..].iter().map(|&dart| self.path(dart)).chain([first]) {
-            let after = if next.right == before.0 { before } else { site(&next) };
-            let keypoint = path.to;
-            if before.1.kind == SiteKind::Vertex {
+    fn contour(&self, around: &mut Around<'_>) -> Contour {
+        /// Paths passed for each corner, about.
+        const PASSED: usize = 3;
+        // The first contour may be all there is; of many each is short.
+        let is_first = around.left == self.darts.len();
+        let mut pieces = Vec::with_capacity(if is_first { around.left / PASSED } else { 0 });
+        let right = |dart: u32| self.darts[dart as usize].right;
+        let Some(first) = around.next() else { return Contour(pieces) };
+        let mut before = (right(first), self.axis.site_shape(right(first)));
+        let mut came_by = first;
+        loop {
+            let next = around.next();
+            let dart = next.unwrap_or(first);
+            let is_end = dart == came_by ^ 1;
+            if right(dart) != before.0 || is_end {
+                let after = (right(dart), self.axis.site_shape(right(dart)));
+                if before.1.kind == SiteKind::Vertex {
+                    push(&mut pieces, OutlinePiece::Corner(before.1.a));
+                }
+                self.turn(&mut pieces, came_by, &before, &after);
+                before = after;
+            } else if next.is_none() && before.1.kind == SiteKind::Vertex {
+                // It goes on at the start.
                 push(&mut pieces, OutlinePiece::Corner(before.1.a));
             }
-            let disk = self.axis.keypoints().at(keypoint);
-            if disk.kind == KeypointKind::End {
-                push(&mut pieces, OutlinePiece::Corner(disk.position));
-            } else if before.0 != after.0 && !meet(&before.1, &after.1) {
-                let (centre, radius) = (disk.position, disk.radius);
-                let [from, to] = [before, after].map(|(_, site)| foot_on(site.a, site.b, centre));
-                let closes = self.leaving.of(keypoint).len() == 1
-                    && self.axis.curve(&path).growth_at(1.0) > 0.0;
-                if TAU - sweep(centre, from, to) < WRAPPED && !closes {
-                    // An arc of nothing, for a corner that is nearly straight.
-                    push(&mut pieces, OutlinePiece::Corner(from));
-                } else {
-                    let sense = Sense::Counterclockwise;
-                    push(&mut pieces, OutlinePiece::Arc { centre, radius, from, to, sense });
-                }
+            came_by = dart;
+            if next.is_none() {
+                break;
             }
-            (path, before) = (next, after);
         }
         if pieces.len() > 1 && pieces.first() == pieces.last() {
             pieces.pop();
         }
+        pieces.shrink_to_fit();
         Contour(pieces)
+    }
+
+    /// Adds what lies between two sites, at the keypoint to which a path leads.
+    #[inline]
+    fn turn(
+        &self,
+        pieces: &mut Vec<OutlinePiece>,
+        came_by: u32,
+        before: &(u32, SiteShape),
+        after: &(u32, SiteShape),
+    ) {
+        let keypoint = self.end(came_by);
+        let disk = self.axis.keypoints().at(keypoint);
+        if disk.kind == KeypointKind::End {
+            push(pieces, OutlinePiece::Corner(disk.position));
+        } else if before.0 != after.0 && !meet(&before.1, &after.1) {
+            let (centre, radius) = (disk.position, disk.radius);
+            let [from, to] = [before, after].map(|(_, site)| foot_on(site.a, site.b, centre));
+            let closes = self.leaving(keypoint).nth(1).is_none()
+                && self.axis.curve(&self.path(came_by)).growth_at(1.0) > 0.0;
+            if TAU - sweep(centre, from, to) < WRAPPED && !closes {
+                // An arc of nothing, for a corner that is nearly straight.
+                push(pieces, OutlinePiece::Corner(from));
+            } else {
+                let sense = Sense::Counterclockwise;
+                push(pieces, OutlinePiece::Arc { centre, radius, from, to, sense });
+            }
+        }
+    }
+}
+
+/// What is passed with the same contour on the right, from a path on.
+pub(super) struct Around<'t> {
+    darts: &'t [Dart],
+    is_passed: &'t mut [bool],
+    next: u32,
+    /// How much has not been passed yet, of all.
+    left: usize,
+}
+
+impl Iterator for Around<'_> {
+    type Item = u32;
+
+    #[inline]
+    fn next(&mut self) -> Option<u32> {
+        let dart = self.next;
+        if std::mem::replace(&mut self.is_passed[dart as usize], true) {
+            return None;
+        }
+        self.left -= 1;
+        self.next = self.darts[dart as usize].next;
+        Some(dart)
     }
 }
 

@@ -70,13 +70,14 @@ pub fn polygons_of(axis: &MedialAxis) -> Result<Vec<Vec<Vec<Point>>>, Reconstruc
     if !axis.complete || axis.accuracy != Accuracy::Exact {
         return Err(ReconstructError::Incomplete);
     }
-    let mut edges: Vec<Site> =
-        axis.sites().iter().filter(|site| site.kind == SiteKind::Edge).collect();
+    let mut edges: Vec<Site> = Vec::with_capacity(axis.sites().len());
+    edges.extend(axis.sites().in_order().filter(|site| site.kind == SiteKind::Edge));
     edges.sort_by_key(|e| (e.polygon, e.ring, e.index, e.part));
     let mut polygons: Vec<Vec<Vec<Point>>> = Vec::new();
     for ring in edges.chunk_by(|e, f| (e.polygon, e.ring) == (f.polygon, f.ring)) {
         // Edges have the interior on their left, whichever way the ring was given.
-        let next = |k: usize| &ring[(k + 1) % ring.len()];
+        let next = |k: usize| &ring[if k + 1 < ring.len() { k + 1 } else { 0 }];
+        let last = |k: usize| &ring[if k > 0 { k - 1 } else { ring.len() - 1 }];
         let ends = |edge: &Site, forwards: bool| {
             if forwards { (edge.a, edge.b) } else { (edge.b, edge.a) }
         };
@@ -97,12 +98,12 @@ pub fn polygons_of(axis: &MedialAxis) -> Result<Vec<Vec<Vec<Point>>>, Reconstruc
         }
         // Pieces of an edge that another ring touches begin at no corner of this ring.
         let is_corner = |k: &usize| {
-            let (before, (start, end)) =
-                (&ring[(k + ring.len() - 1) % ring.len()], ends(&ring[*k], way));
-            ring[*k].part == 0 || orient2d(ends(before, way).0, start, end) != 0.0
+            let (start, end) = ends(&ring[*k], way);
+            ring[*k].part == 0 || orient2d(ends(last(*k), way).0, start, end) != 0.0
         };
-        let corners = (0..ring.len()).filter(is_corner).map(|k| ends(&ring[k], way).0);
-        polygons[polygon][number] = corners.collect();
+        let corners = &mut polygons[polygon][number];
+        corners.reserve(ring.len());
+        corners.extend((0..ring.len()).filter(is_corner).map(|k| ends(&ring[k], way).0));
     }
     // Holes without area, and polygons that were empty, have no edges.
     polygons.iter_mut().for_each(|rings| rings.retain(|ring| !ring.is_empty()));
@@ -175,7 +176,9 @@ pub fn tangent_polygons(
         }
         rings
     };
-    let components = turns.components(|darts| tangent_ring(axis, &turns, darts, step));
+    let components = turns.components(|around| {
+        tangent_ring(axis, &turns, &around.collect::<Vec<u32>>(), step)
+    });
     Ok(components.into_iter().map(polygon).collect())
 }
 
@@ -271,7 +274,7 @@ fn tangent_ring(axis: &MedialAxis, turns: &Turns<'_>, darts: &[u32], step: f64) 
     for (k, &dart) in darts.iter().enumerate() {
         let path = turns.path(dart);
         let before = darts[if k == 0 { darts.len() - 1 } else { k - 1 }];
-        let role = match turns.leaving.of(path.from).len() {
+        let role = match turns.leaving(path.from).count() {
             _ if before == dart ^ 1 => Role::End,
             2 => Role::Normal,
             _ => Role::Branch,

@@ -77,8 +77,8 @@ impl Hierarchy<'_> {
     /// # Errors
     /// If the axis is not of the interior.
     pub fn smoothed(&self, measure: Measure, threshold: f64) -> Result<Smoothed, SmoothError> {
-        let pruned = self.pruned(measure, threshold);
-        let outline = Outline::new(&pruned.axis)?;
-        Ok(Smoothed { outline, axis: pruned.axis, distance: pruned.error })
+        let (rest, lost) = self.rest(measure, threshold);
+        let (axis, distance) = rest.axis_and_error(&self.fire.roots, &lost);
+        Ok(Smoothed { outline: Outline::new(&axis)?, axis, distance })
     }
 }

@@ -101,13 +101,14 @@ impl<'a> Pieces<'a> {
 }
 
 impl<'a> Graph<'a> {
-    /// The graph of some paths of an axis as they are.
-    pub fn whole(axis: &'a MedialAxis, paths: &[u32]) -> Self {
+    /// The graph of some paths of an axis as they are, given their lengths.
+    pub fn whole(axis: &'a MedialAxis, paths: &[u32], length: impl Fn(u32) -> f64) -> Self {
         let piece = |&path: &u32| {
             let [from, to] = axis.paths().ends(path);
             Piece { path, span: [0.0, 1.0], from, to }
         };
-        Self::new(Pieces { pieces: paths.iter().map(piece).collect(), ..Pieces::of(axis) })
+        let pieces = Pieces { pieces: paths.iter().map(piece).collect(), ..Pieces::of(axis) };
+        Self::with_lengths(pieces, paths.iter().map(|&path| length(path)).collect())
     }
 
     pub fn new(pieces: Pieces<'a>) -> Self {
@@ -119,7 +120,12 @@ impl<'a> Graph<'a> {
                 [from, to] => axis.curve(&path).piece(from, to).length(),
             }
         };
-        let lengths: Vec<f64> = pieces.iter().map(length).collect();
+        let lengths = pieces.iter().map(length).collect();
+        Self::with_lengths(Pieces { axis, pieces, n_nodes }, lengths)
+    }
+
+    fn with_lengths(pieces: Pieces<'a>, lengths: Vec<f64>) -> Self {
+        let Pieces { axis, pieces, n_nodes } = pieces;
         let ends = || (0..).zip(&pieces).flat_map(|(k, piece)| [(piece.from, k), (piece.to, k)]);
         let incidence = Groups::new(n_nodes as usize, ends);
         let mut steps = Vec::with_capacity(incidence.all().len());

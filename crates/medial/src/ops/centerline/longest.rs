@@ -6,9 +6,12 @@
 //! to one tried before that they cannot be either. The longest way of an axis without cycles is found while
 //! its leaves are peeled off, in the order of its keypoints.
 
+use std::cmp::Ordering;
+
+use super::chains::{Chains, Distances};
 use super::graph::{Graph, NONE, Way};
 use super::line::Centerline;
-use crate::axis::MedialAxis;
+use crate::ops::rest::Rest;
 
 /// More than the rounding of sums of lengths, as a factor.
 const SURE: f64 = 1.0 + 1e-9;
@@ -30,45 +33,80 @@ pub(super) fn way(graph: &Graph, component: &[u32]) -> Option<Way> {
     if ends.len() < 2 {
         ends = component.to_vec();
     }
+    if n_pieces >= n {
+        return around_cycles(graph, component, &ends, lone);
+    }
     let start = lone.unwrap_or_else(|| graph.farthest(&ends, &graph.ways_from(component[0], n)).0);
-    let mut best = graph.ways_from(start, n);
-    let (mut end, mut length) = graph.farthest(&ends, &best);
+    let best = graph.ways_from(start, n);
+    let (end, length) = graph.farthest(&ends, &best);
+    (length > 0.0).then(|| graph.way(&best, end))
+}
+
+/// The same for a component with cycles.
+fn around_cycles(graph: &Graph, component: &[u32], ends: &[u32], lone: Option<u32>) -> Option<Way> {
+    let chains = Chains::new(graph, component);
+    // In their order there; of those that are as far the first one of the component counts.
+    let mut ends: Vec<u32> = ends.iter().map(|&node| chains.number(node)).collect();
+    ends.sort_unstable();
+    let first = |&number: &u32| graph.place(chains.node(number));
+    let farthest = |distances: &Distances| {
+        let of = |end: u32| distances.to[end as usize];
+        let better = |best: u32, end: u32| match of(end).total_cmp(&of(best)) {
+            Ordering::Less => best,
+            Ordering::Greater => end,
+            Ordering::Equal => if first(&end) < first(&best) { end } else { best },
+        };
+        let end = ends.iter().copied().reduce(better).unwrap_or(distances.start);
+        (end, of(end))
+    };
+    let number = |node: u32| chains.number(node);
+    let start = match lone {
+        Some(lone) => number(lone),
+        None => farthest(&chains.from(number(component[0]))).0,
+    };
+    let mut best = chains.from(start);
+    let (mut end, mut length) = farthest(&best);
     let mut is_best = true;
-    if n_pieces >= n && lone.is_none() {
-        // Around cycles: from the middle of the way found, no two ends are farther apart than twice
-        // the farther of the two.
-        let back = graph.back(&best, end);
+    if lone.is_none() {
+        // From the middle of the way found, no two ends are farther apart than twice the farther of the two.
+        let back = chains.back(&best, end);
         let mut middle = back.iter().map(|&(_, node)| node);
-        let half = middle.find(|&node| graph.distance(&best, node) * 2.0 <= length);
-        let around = graph.ways_from(half.unwrap_or(end), n);
-        let distance = |node: u32| graph.distance(&around, node);
-        let mut order = ends.clone();
-        order.sort_by(|&a, &b| distance(b).total_cmp(&distance(a)).then(a.cmp(&b)));
+        let half = middle.find(|&node| best.to[node as usize] * 2.0 <= length);
+        let around = chains.from(half.unwrap_or(end));
+        let distance = |place: usize| around.to[ends[place] as usize];
+        let mut order: Vec<usize> =
+            (0..ends.len()).filter(|&place| 2.0 * distance(place) > length).collect();
+        let node = |place: usize| chains.node(ends[place]);
+        order.sort_by(|&a, &b| {
+            distance(b).total_cmp(&distance(a)).then_with(|| node(a).cmp(&node(b)))
+        });
         // By way of those that were tried no end is farther than this from another one.
-        let mut bounds = vec![f64::INFINITY; n];
-        for (tried, &node) in order.iter().enumerate() {
-            if 2.0 * distance(node) <= length {
+        let mut bounds = vec![f64::INFINITY; ends.len()];
+        for (tried, place) in order.into_iter().enumerate() {
+            if 2.0 * distance(place) <= length {
                 break;
             }
-            if tried * n > MOST_VISITED {
+            if tried * chains.len() > MOST_VISITED {
                 is_best = false;
                 break;
             }
-            if bounds[graph.place(node)] * SURE <= length {
+            if bounds[place] * SURE <= length {
                 continue;
             }
-            let ways = graph.ways_from(node, n);
-            let (other, there) = graph.farthest(&ends, &ways);
-            for &end in &ends {
-                let bound = &mut bounds[graph.place(end)];
-                *bound = bound.min(graph.distance(&ways, end) + there);
+            let distances = chains.from(ends[place]);
+            let (other, there) = farthest(&distances);
+            for (bound, &end) in bounds.iter_mut().zip(&ends) {
+                *bound = bound.min(distances.to[end as usize] + there);
             }
             if there > length {
-                (best, end, length) = (ways, other, there);
+                (best, end, length) = (distances, other, there);
             }
         }
     }
-    (length > 0.0).then(|| Way { is_best, ..graph.way(&best, end) })
+    (length > 0.0).then(|| {
+        let way = chains.way(&best, end);
+        Way { is_best: is_best && way.is_best, ..way }
+    })
 }
 
 /// What has been peeled off around a keypoint.
@@ -82,22 +120,43 @@ struct Peeled {
     by: u32,
 }
 
-/// The longest way between two ends of an axis, given the lengths of its paths, if there are no cycles.
+/// The longest way between two ends of what is left of an axis, if there are no cycles, given the lengths of
+/// paths that are whole.
 ///
 /// # Errors
 /// If there are.
 pub(super) fn in_forest(
-    axis: &MedialAxis,
+    rest: &Rest<'_>,
     length: impl Fn(u32) -> f64,
 ) -> Result<Option<Centerline>, HasCycles> {
+    let axis = rest.axis();
+    let n_keypoints = axis.keypoints().len();
     let nothing = Peeled { left: 0, numbers: 0, reach: 0.0, by: NONE };
-    let mut around = vec![nothing; axis.keypoints().len()];
+    let mut around = vec![nothing; n_keypoints];
+    let mut n_paths = 0;
+    // The ends of what is cut: tips are numbered after all keypoints.
+    let mut cut: Vec<[u32; 2]> = vec![[NONE; 2]; rest.n_cut()];
     for (number, ends) in (0..).zip(axis.paths().all_ends()) {
-        for end in ends {
-            around[end as usize].left += 1;
-            around[end as usize].numbers ^= number;
+        let mut ends = ends;
+        if let Some((place, is_tip)) = rest.tips(number) {
+            let Some(is_tip) = is_tip else { continue };
+            for (end, _) in ends.iter_mut().zip(is_tip).filter(|(_, is_tip)| *is_tip) {
+                *end = around.len() as u32;
+                around.push(nothing);
+            }
+            cut[place] = ends;
         }
+        for end in ends {
+            let there = &mut around[end as usize];
+            there.left += 1;
+            there.numbers ^= number;
+        }
+        n_paths += 1;
     }
+    let ends_of = |number: u32| match rest.tips(number) {
+        None => axis.paths().ends(number),
+        Some((place, _)) => cut[place],
+    };
     // The length, the keypoint nearest to the root, and the paths by which both ways leave it.
     let mut best = (0.0, 0, [NONE; 2]);
     let mut gone = 0;
@@ -105,9 +164,11 @@ pub(super) fn in_forest(
         let mut keypoint = leaf;
         while around[keypoint as usize].left == 1 {
             let Peeled { numbers: number, reach, .. } = around[keypoint as usize];
-            let [from, to] = axis.paths().ends(number);
+            let [from, to] = ends_of(number);
             let other = if from == keypoint { to } else { from };
-            let arm = reach + length(number);
+            let whole = rest.tips(number).is_none();
+            let arm =
+                reach + if whole { length(number) } else { rest.curve_of(number, true).length() };
             around[keypoint as usize].left = 0;
             let there = &mut around[other as usize];
             there.left -= 1;
@@ -122,17 +183,17 @@ pub(super) fn in_forest(
             keypoint = other;
         }
     }
-    if gone < axis.paths().len() {
+    if gone < n_paths {
         return Err(HasCycles);
     }
     let (length, top, ways) = best;
     let down = |mut by: u32| {
         let (mut keypoint, mut curves) = (top, Vec::new());
         while by != NONE {
-            let path = axis.paths().at(by);
-            let path = if path.from == keypoint { path } else { path.reversed() };
-            curves.push(axis.curve(&path));
-            keypoint = path.to;
+            let [from, to] = ends_of(by);
+            let forwards = from == keypoint;
+            curves.push(rest.curve_of(by, forwards));
+            keypoint = if forwards { to } else { from };
             by = around[keypoint as usize].by;
         }
         curves

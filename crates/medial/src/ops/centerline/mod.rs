@@ -21,6 +21,7 @@
 //! 3. Further lines are the best ones that use no piece of those before.
 
 mod between;
+mod chains;
 mod extend;
 mod graph;
 mod label;
@@ -196,7 +197,17 @@ impl Hierarchy<'_> {
         options: &CenterlineOptions,
     ) -> Result<Vec<Centerline>, CenterlineError> {
         let (measure, value) = options.ends;
-        best_lines(self, &self.pruned(measure, value), options)
+        let (rest, lost) = self.rest(measure, value);
+        // Mostly there is one line to be found in one forest.
+        if options.route == Route::Longest
+            && options.count == 1
+            && !rest.has_points(&self.fire.roots)
+            && let Ok(line) = longest::in_forest(&rest, |path| self.fire.lengths[path as usize])
+        {
+            let line = line.into_iter();
+            return Ok(line.map(|line| extended(self.given, line, options)).collect());
+        }
+        best_lines(self, &rest.finish(&self.fire.roots, &lost), options)
     }
 }
 
@@ -217,18 +228,14 @@ fn best_lines(
             return Ok(if count > 0 { vec![line] } else { Vec::new() });
         }
         Route::Longest => {
-            // Mostly there is one line to be found in one forest.
             let length = |path: u32| match origins[path as usize] {
                 Origin { path, part: [0.0, 1.0] } => hierarchy.fire.lengths[path as usize],
                 _ => pruned.length_of(&pruned.paths().at(path)),
             };
-            if count == 1
-                && of_points.is_empty()
-                && let Ok(line) = longest::in_forest(pruned, length)
-            {
-                return Ok(line.into_iter().map(|line| extended(domain, line, options)).collect());
-            }
-            let graphs = parts.map(|(axis, paths)| Graph::whole(axis, paths));
+            let graphs = [
+                Graph::whole(pruned, &all, length),
+                Graph::whole(axis, &of_points, |path| hierarchy.fire.lengths[path as usize]),
+            ];
             ranked(graphs, count, longest::way)
         }
         Route::Label { height } => {
@@ -275,6 +282,9 @@ fn ranked<'a>(
         let graph = &mut graphs[number];
         graph.take(&way);
         lines.push(graph.line(&way));
+        if lines.len() == count {
+            break;
+        }
         left.extend(components(graph, number, &nodes, &best));
     }
     lines
