@@ -143,3 +143,28 @@ fn text_sequences_have_record_separators() {
     let run = medial_with(&["axis", "-", "-q", "--to", "geojsonseq"], SQUARES);
     assert_eq!(run.out, bytes);
 }
+
+#[test]
+fn a_format_without_a_place_for_the_reference_system_says_so() {
+    let folder = tempfile::tempdir().unwrap();
+    for format in ["geojsonl", "geojsonseq", "wkt", "csv", "json", "dxf", "svg"] {
+        let file = path(&folder, &format!("out.{format}"));
+        let run = medial_with(&["axis", "-", "--to", format, "-o", &file], SQUARES);
+        let lost: Vec<&str> =
+            run.errors.lines().filter(|line| line.contains("reference system")).collect();
+        let expected = format!(
+            "warning: {file}: the reference system EPSG:2193 is not written: {format} has no place for it"
+        );
+        assert_eq!(lost, [expected], "{format}: {}", run.errors);
+        let run = medial_with(&["axis", "-", "-q", "--to", format, "-o", &file], SQUARES);
+        assert!(!run.errors.contains("reference system"), "{format}: quiet");
+    }
+    let run = medial_with(&["axis", "-"], SQUARES);
+    assert!(run.text().contains("EPSG:2193") && !run.errors.contains("reference system"));
+    let degrees = SQUARES.replace("EPSG:2193", "urn:ogc:def:crs:OGC:1.3:CRS84");
+    let run = medial_with(&["axis", "-", "--to", "csv"], &degrees);
+    assert!(!run.errors.contains("is not written"), "{}", run.errors);
+    let other = SQUARES.replace("EPSG:2193", "something");
+    let run = medial_with(&["axis", "-", "--to", "geojson"], &other);
+    assert!(run.text().contains("something") && !run.errors.contains("is not written"));
+}

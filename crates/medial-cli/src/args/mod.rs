@@ -541,8 +541,12 @@ impl Common {
 
     /// When a feature that is begun now must be done.
     pub fn deadline(&self) -> Option<Instant> {
-        let limit = Duration::try_from_secs_f64(self.max_seconds?).ok()?;
-        Instant::now().checked_add(limit)
+        Instant::now().checked_add(self.limit()?)
+    }
+
+    /// How long a feature may take.
+    pub fn limit(&self) -> Option<Duration> {
+        Duration::try_from_secs_f64(self.max_seconds?).ok()
     }
 }
 
