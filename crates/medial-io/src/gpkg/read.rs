@@ -47,7 +47,7 @@ pub fn open(path: &Path, layer: Option<&str>) -> Result<Layer<'static>, Error> {
     let len = usize::try_from(count).ok().filter(|&count| count < COUNTED);
     let parts = read_apart(move |rows| read(&database, table, rows).map_err(|error| said(&error)))
         .map_err(|source| Error::Interrupted { source })?;
-    Ok(Layer { crs, units: None, len, parts: Box::new(parts) })
+    Ok(Layer { crs, len, ..Layer::of_parts(parts) })
 }
 
 /// What the database says of a failure.
