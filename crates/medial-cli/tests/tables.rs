@@ -168,3 +168,31 @@ fn a_format_without_a_place_for_the_reference_system_says_so() {
     let run = medial_with(&["axis", "-", "--to", "geojson"], &other);
     assert!(run.text().contains("something") && !run.errors.contains("is not written"));
 }
+
+#[test]
+fn of_a_table_that_breaks_off_the_beginning_is_used() {
+    let folder = tempfile::tempdir().unwrap();
+    let squares: String = (0..2000)
+        .map(|k| {
+            let (x, y) = (10 * (k % 50), 10 * (k / 50));
+            format!("POLYGON (({x} {y}, {} {y}, {} {}, {x} {y}))\n", x + 4, x + 4, y + 2)
+        })
+        .collect();
+    for (format, size) in [("fgb", 0.7), ("gpkg", 0.6), ("shp", 0.5)] {
+        let file = path(&folder, &format!("whole.{format}"));
+        let run = medial_with(&["reconstruct", "-", "-q", "-o", &file], &squares);
+        assert_eq!(run.status, Some(0), "{}", run.errors);
+        let bytes = std::fs::read(&file).unwrap();
+        std::fs::write(&file, &bytes[..(bytes.len() as f64 * size) as usize]).unwrap();
+        let report = path(&folder, "report.json");
+        let out = path(&folder, "out.geojsonl");
+        let run = medial(&["reconstruct", &file, "--report", &report, "-o", &out]);
+        assert_eq!(run.status, Some(3), "{format}: {}", run.errors);
+        let n = std::fs::read_to_string(&out).unwrap().lines().count();
+        assert!((100..2000).contains(&n), "{format}: {n}");
+        let report: serde_json::Value =
+            serde_json::from_slice(&std::fs::read(&report).unwrap()).unwrap();
+        let last = &report["features"].as_array().unwrap().last().unwrap()["entries"][0];
+        assert_eq!(last["code"], "broken_off", "{format}: {}", run.errors);
+    }
+}

@@ -38,8 +38,6 @@ struct Outcome<R> {
     id: Option<Json>,
     warnings: Vec<String>,
     entries: Vec<Entry>,
-    /// Why the input ends here, though it should not.
-    broken: Option<String>,
     /// `None` if it was refused; then the last entry says why.
     result: Option<R>,
     /// Where its bytes end among those of its batch; they begin where the feature before ends.
@@ -140,10 +138,6 @@ impl Run {
                 let mut end = 0;
                 let mut stopped = false;
                 for outcome in outcomes {
-                    if let Some(why) = outcome.broken {
-                        let why = format_args!("cannot read: {why}");
-                        return ControlFlow::Break(Some(Failure::file(&input.name, why)));
-                    }
                     self.stages.add(outcome.stages);
                     progress.step();
                     let last = outcome.end;
@@ -212,7 +206,6 @@ impl<R> Outcome<R> {
             id: None,
             warnings: Vec::new(),
             entries: Vec::new(),
-            broken: None,
             result: None,
             end,
             stages: Stages::default(),
@@ -327,7 +320,11 @@ fn process<R>(
             outcome.index = feature;
             outcome.id = id;
             if let Error::Interrupted { source } = error {
-                outcome.broken = Some(plain(&source));
+                let why = format!(
+                    "cannot be read, nor what follows it: {}; what comes before is all that is used",
+                    plain(&source)
+                );
+                outcome.entries.push(Entry::refused("broken_off", why));
                 return outcome;
             }
             outcome.entries.push(Entry::refused(error.code(), error.to_string()));
