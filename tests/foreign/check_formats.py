@@ -175,8 +175,8 @@ def reference_systems(folder):
                 check(set(table(out)["name"]) == {"é"}, f"{path.name} to {other}: text")
             medial("axis", path, "-q", "-o", folder / "out.geojson")
             check(table(folder / "out.geojson").crs.to_epsg() == code, f"{path.name}: to GeoJSON")
-        medial("axis", folder / f"in{code}.parquet", "-o", folder / "out.parquet")
-        check(table(folder / "out.parquet").crs.to_epsg() == code, "PROJJSON comes through")
+            medial("axis", path, "-o", folder / "out.parquet")
+            check(table(folder / "out.parquet").crs.to_epsg() == code, f"{path.name}: to Parquet")
     frame = geopandas.GeoDataFrame({"name": ["a"]}, geometry=[square], crs=4326)
     for extension in DRIVERS:
         path = folder / f"degrees.{extension}"
@@ -184,6 +184,49 @@ def reference_systems(folder):
         said = medial("axis", path, "-o", folder / f"out.{extension}")
         check(said.count("degrees (") == 1, f"{path.name}: {said}")
         check(table(folder / f"out.{extension}").crs.to_epsg() == 4326, f"{path.name}: CRS")
+
+
+def dialects(folder):
+    """Reference systems in every dialect of well-known text become the PROJJSON of the same system, and
+    PROJJSON the text of it."""
+    square = shapely.Polygon([(0, 0), (4, 0), (4, 2), (0, 2)])
+    source = folder / "dialect.gpkg"
+    # Degrees, zones of UTM, national grids, feet, poles, areas, grads from Paris, the Web, heights.
+    codes = (4269, 32633, 32705, 3857, 27700, 2154, 25832, 5070, 3035, 2225, 3031, 3413, 5041, 2193, 28992,
+             2056, 5514, 27572, 31370, 3395, 7405, "ESRI:54009", "ESRI:102003")
+    for code in codes:
+        known = pyproj.CRS.from_user_input(code)
+        geopandas.GeoDataFrame({"a": [1]}, geometry=[square], crs=known).to_file(source, driver="GPKG")
+        for version in ("WKT1_GDAL", "WKT1_ESRI", "WKT2_2019", "WKT2_2015"):
+            text = known.to_wkt(version)
+            with sqlite3.connect(source) as base:
+                # Nobody knows its number.
+                base.execute("UPDATE gpkg_spatial_ref_sys SET organization = 'NONE', definition = ? WHERE "
+                             "srs_id = (SELECT srs_id FROM gpkg_geometry_columns)", [text])
+            written = pyproj.CRS.from_wkt(text)
+            out = folder / "dialect.parquet"
+            said = medial("axis", source, "-o", out)
+            check("left out" not in said, f"{code}: {said}")
+            metadata = json.loads(pyarrow.parquet.read_schema(out).metadata[b"geo"])
+            crs = pyproj.CRS.from_json_dict(metadata["columns"]["geometry"]["crs"])
+            same = any(crs.equals(other, ignore_axis_order=True) for other in (written, known))
+            check(same, f"{code}, {version}: {crs.to_json()}")
+        # Back, without a number.
+        nameless = known.to_json_dict()
+        nameless.pop("id", None)
+        nameless = pyproj.CRS.from_json_dict(nameless)
+        frame = geopandas.GeoDataFrame({"a": [1]}, geometry=[square], crs=nameless)
+        frame.to_parquet(folder / "nameless.parquet")
+        for extension in ("gpkg", "fgb", "shp"):
+            out = folder / f"nameless.{extension}"
+            medial("axis", folder / "nameless.parquet", "-o", out)
+            crs = table(out).crs
+            same = crs is not None and (crs.equals(nameless, ignore_axis_order=True)
+                                        or crs.equals(known, ignore_axis_order=True))
+            # GDAL takes WKT of version 1 in a .prj for ESRI's, with other names of datums.
+            same = same or extension == "shp" and crs is not None and crs.name != "" and (
+                crs.to_dict() == known.to_dict())
+            check(same, f"{code} without a number to {extension}: {crs}")
 
 
 def values(folder):
@@ -263,7 +306,7 @@ def parquet_rules(folder):
     frame = geopandas.GeoDataFrame({"a": [1]}, geometry=[square], crs=2193)
     native = folder / "native.parquet"
     frame.to_parquet(native, geometry_encoding="geoarrow", write_covering_bbox=True)
-    for compression in ("zstd", "gzip", "lz4", "snappy", None):
+    for compression in ("zstd", "gzip", "lz4", "snappy", "brotli", None):
         path = folder / f"{compression}.parquet"
         frame.to_parquet(path, compression=compression)
         medial("axis", path, "-o", folder / "a.geojsonl")

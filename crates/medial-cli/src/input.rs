@@ -124,6 +124,10 @@ impl Opened {
                         match Format::of_content(&bytes) {
                             Ok(Content::Polygons(format)) => format,
                             Ok(Content::Axes | Content::CompressedAxes) => {
+                                if options.text.is_some() {
+                                    let why = "--text is for fonts; the input is an axis";
+                                    return Err(Failure::Usage(why.to_owned()));
+                                }
                                 return Ok(Self::Axes(Input { name, bytes }));
                             }
                             Err(error) => return Err(Failure::file(&name, error)),
@@ -137,6 +141,10 @@ impl Opened {
             && *stem != *layer
         {
             let why = format!("--layer {layer}: the format {format} has no layers with names");
+            return Err(Failure::Usage(why));
+        }
+        if options.text.is_some() && format != Format::Ttf {
+            let why = format!("--text is for fonts; the input is {format}");
             return Err(Failure::Usage(why));
         }
         let content = if format.is_streamed() {
@@ -206,6 +214,9 @@ fn table(
     if path.as_os_str() == "-" {
         let why = format!("{format} is read from a file, not from standard input; name the file");
         return Err(Failure::Usage(why));
+    }
+    if options.text.is_some() {
+        return Err(Failure::Usage(format!("--text is for fonts; the input is {format}")));
     }
     let content = Features::File(path.to_owned());
     Ok(Opened::Polygons(Polygons { name, format, options, content }))

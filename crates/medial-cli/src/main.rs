@@ -21,6 +21,7 @@ mod verdicts;
 
 use args::Command;
 use failure::{Failure, Status};
+use parallel::kept;
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
@@ -35,20 +36,20 @@ fn main() -> ExitCode {
 
 fn run() -> Result<Status, Failure> {
     match args::parse()? {
-        Command::Axis(args) => commands::axis::run(&args),
-        Command::Prune(args) => commands::axis::prune(&args),
-        Command::Branches(args) => commands::branches::run(&args),
-        Command::Smooth(args) => commands::smooth::run(&args),
-        Command::Reconstruct(args) => commands::reconstruct::run(&args),
-        Command::Centerline(args) => commands::centerline::run(&args),
-        Command::Offset(args) => commands::offset::run(&args),
-        Command::Clearance(args) => commands::clearance::run(&args),
-        Command::Carve(args) => commands::carve::run(&args),
-        Command::Walls(args) => commands::walls::run(&args),
-        Command::Voronoi(args) => commands::voronoi::run(&args),
-        Command::Locate(args) => commands::locate::run(&args),
-        Command::Check(args) => commands::check::run(&args),
-        Command::Compare(args) => commands::compare::run(&args),
-        Command::Compress(args) => commands::compress::run(&args),
+        Command::Axis(args) => commands::axis::run(kept(args)),
+        Command::Prune(args) => commands::axis::prune(kept(args)),
+        Command::Branches(args) => commands::branches::run(kept(args)),
+        Command::Smooth(args) => commands::smooth::run(kept(args)),
+        Command::Reconstruct(args) => commands::reconstruct::run(kept(args)),
+        Command::Centerline(args) => commands::centerline::run(kept(args)),
+        Command::Offset(args) => commands::offset::run(kept(args)),
+        Command::Clearance(args) => commands::clearance::run(kept(args)),
+        Command::Carve(args) => commands::carve::run(kept(args)),
+        Command::Walls(args) => commands::walls::run(kept(args)),
+        Command::Voronoi(args) => commands::voronoi::run(kept(args)),
+        Command::Locate(args) => commands::locate::run(kept(args)),
+        Command::Check(args) => commands::check::run(kept(args)),
+        Command::Compare(args) => commands::compare::run(kept(args)),
+        Command::Compress(args) => commands::compress::run(kept(args)),
     }
 }

@@ -114,7 +114,7 @@ impl Output {
         self.finish()
     }
 
-    fn name(&self) -> String {
+    pub fn name(&self) -> String {
         match self {
             Self::Stream(_) => "<stdout>".to_owned(),
             Self::Direct(_, name) => name.clone(),

@@ -156,3 +156,13 @@ fn contents_are_told_apart() {
         assert!(!named.is_empty() && named == told, "{file}");
     }
 }
+
+#[test]
+fn text_is_for_fonts_only() {
+    let run = medial_with(
+        &["axis", "-", "--from", "wkt", "--text", "A"],
+        "POLYGON ((0 0, 4 0, 4 2, 0 0))",
+    );
+    let told = "error: --text is for fonts; the input is wkt\n";
+    assert_eq!((run.status, run.errors.as_str()), (Some(2), told));
+}

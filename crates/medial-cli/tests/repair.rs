@@ -111,6 +111,31 @@ fn features_beyond_a_limit_are_left_out_with_a_reason() {
     assert_eq!(with(["--max-seconds", "0.2"], &scribble), (Some(3), vec!["time_limit".to_owned()]));
 }
 
+/// Disks so many that uniting them takes far longer than a second, which nothing in it notices.
+#[test]
+fn what_does_not_come_back_in_time_is_left_out_alone() {
+    let folder = tempfile::tempdir().unwrap();
+    let report = folder.path().join("report.json").display().to_string();
+    let corner = |k: u32| {
+        let (sin, cos) = (f64::from(k) * std::f64::consts::TAU / 800.0).sin_cos();
+        let radius = if k.is_multiple_of(2) { 100.0 } else { 1.0 + f64::from(k % 37) };
+        format!("{} {}", radius * cos, radius * sin)
+    };
+    let ring: Vec<String> = (0..=800).map(|k| corner(k % 800)).collect();
+    let star = format!("POLYGON (({}))\n", ring.join(", "));
+    let input = format!("{SQUARE}{star}{SQUARE}");
+    let args = ["reconstruct", "-", "--method", "disks", "--step", "0.0003", "--to", "wkt"];
+    let args = [&args[..], &["--max-seconds", "1", "--threads", "1", "--report", &report]].concat();
+    let run = medial_with(&args, &input);
+    assert_eq!(run.status, Some(3), "{}", run.errors);
+    assert_eq!(run.text().lines().count(), 2, "both squares are there");
+    assert!(run.errors.contains("feature 1: "), "{}", run.errors);
+    let report: serde_json::Value =
+        serde_json::from_slice(&std::fs::read(report).unwrap()).unwrap();
+    assert_eq!(report["features"][0]["feature"], 1);
+    assert_eq!(report["features"][0]["entries"][0]["code"], "time_limit");
+}
+
 /// The middle of a rectangle of a degree by a tenth, 60 degrees north: half as wide as on the equator.
 #[test]
 fn degrees_are_metres_on_request() {

@@ -143,3 +143,56 @@ fn text_sequences_have_record_separators() {
     let run = medial_with(&["axis", "-", "-q", "--to", "geojsonseq"], SQUARES);
     assert_eq!(run.out, bytes);
 }
+
+#[test]
+fn a_format_without_a_place_for_the_reference_system_says_so() {
+    let folder = tempfile::tempdir().unwrap();
+    for format in ["geojsonl", "geojsonseq", "wkt", "csv", "json", "dxf", "svg"] {
+        let file = path(&folder, &format!("out.{format}"));
+        let run = medial_with(&["axis", "-", "--to", format, "-o", &file], SQUARES);
+        let lost: Vec<&str> =
+            run.errors.lines().filter(|line| line.contains("reference system")).collect();
+        let expected = format!(
+            "warning: {file}: the reference system EPSG:2193 is not written: {format} has no place for it"
+        );
+        assert_eq!(lost, [expected], "{format}: {}", run.errors);
+        let run = medial_with(&["axis", "-", "-q", "--to", format, "-o", &file], SQUARES);
+        assert!(!run.errors.contains("reference system"), "{format}: quiet");
+    }
+    let run = medial_with(&["axis", "-"], SQUARES);
+    assert!(run.text().contains("EPSG:2193") && !run.errors.contains("reference system"));
+    let degrees = SQUARES.replace("EPSG:2193", "urn:ogc:def:crs:OGC:1.3:CRS84");
+    let run = medial_with(&["axis", "-", "--to", "csv"], &degrees);
+    assert!(!run.errors.contains("is not written"), "{}", run.errors);
+    let other = SQUARES.replace("EPSG:2193", "something");
+    let run = medial_with(&["axis", "-", "--to", "geojson"], &other);
+    assert!(run.text().contains("something") && !run.errors.contains("is not written"));
+}
+
+#[test]
+fn of_a_table_that_breaks_off_the_beginning_is_used() {
+    let folder = tempfile::tempdir().unwrap();
+    let squares: String = (0..2000)
+        .map(|k| {
+            let (x, y) = (10 * (k % 50), 10 * (k / 50));
+            format!("POLYGON (({x} {y}, {} {y}, {} {}, {x} {y}))\n", x + 4, x + 4, y + 2)
+        })
+        .collect();
+    for (format, size) in [("fgb", 0.7), ("gpkg", 0.6), ("shp", 0.5)] {
+        let file = path(&folder, &format!("whole.{format}"));
+        let run = medial_with(&["reconstruct", "-", "-q", "-o", &file], &squares);
+        assert_eq!(run.status, Some(0), "{}", run.errors);
+        let bytes = std::fs::read(&file).unwrap();
+        std::fs::write(&file, &bytes[..(bytes.len() as f64 * size) as usize]).unwrap();
+        let report = path(&folder, "report.json");
+        let out = path(&folder, "out.geojsonl");
+        let run = medial(&["reconstruct", &file, "--report", &report, "-o", &out]);
+        assert_eq!(run.status, Some(3), "{format}: {}", run.errors);
+        let n = std::fs::read_to_string(&out).unwrap().lines().count();
+        assert!((100..2000).contains(&n), "{format}: {n}");
+        let report: serde_json::Value =
+            serde_json::from_slice(&std::fs::read(&report).unwrap()).unwrap();
+        let last = &report["features"].as_array().unwrap().last().unwrap()["entries"][0];
+        assert_eq!(last["code"], "broken_off", "{format}: {}", run.errors);
+    }
+}

@@ -56,6 +56,8 @@ pub struct Layer<'a> {
     pub units: Option<&'static str>,
     /// The number of features, where it is known beforehand.
     pub len: Option<usize>,
+    /// What was passed over in the whole of the input, for people.
+    pub warnings: Vec<String>,
     pub(crate) parts: Box<dyn Iterator<Item = Part<'a>> + Send + 'a>,
 }
 
@@ -157,7 +159,7 @@ impl<'a> Layer<'a> {
     pub(crate) fn new(
         features: impl Iterator<Item = Result<Feature, FeatureError>> + Send + 'a,
     ) -> Self {
-        Self { crs: None, units: None, len: None, parts: Box::new(features.map(Part::of_read)) }
+        Self::of_parts(features.map(Part::of_read))
     }
 
     /// A layer of the features in these slices of `text`, in their order.
@@ -167,7 +169,12 @@ impl<'a> Layer<'a> {
         read: Reading,
     ) -> Self {
         let part = move |(index, part)| Part(State::Unread { text, part, index, read });
-        Self { crs: None, units: None, len: None, parts: Box::new(slices.enumerate().map(part)) }
+        Self::of_parts(slices.enumerate().map(part))
+    }
+
+    /// A layer of which nothing is known but its parts.
+    pub(crate) fn of_parts(parts: impl Iterator<Item = Part<'a>> + Send + 'a) -> Self {
+        Self { crs: None, units: None, len: None, warnings: Vec::new(), parts: Box::new(parts) }
     }
 
     /// The features unread, as far as their format lets them be found before they are read.

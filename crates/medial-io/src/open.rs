@@ -40,6 +40,7 @@ pub fn open<'a>(format: Format, path: &Path, options: &ReadOptions) -> Result<La
             _ => Ok(Layer {
                 units: None,
                 crs: layer.crs,
+                warnings: layer.warnings,
                 len: layer.len,
                 parts: Box::new(layer.parts.map(|part| -> Part<'a> { part })),
             }),

@@ -48,7 +48,7 @@ pub fn read_stream<'a>(
     };
     // Lines have no place for it.
     let crs = (format != Format::Wkt).then(Crs::of_geojson);
-    Ok(Layer { crs, units: None, len: None, parts })
+    Ok(Layer { crs, ..Layer::of_parts(parts) })
 }
 
 /// Whole lines of a source.

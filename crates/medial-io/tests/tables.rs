@@ -129,10 +129,9 @@ fn reference_systems_pass_through() {
         let (found, _) = crs(Some(&Crs::of_geojson()));
         assert!(found.as_ref().is_some_and(Crs::is_geographic), "{format}");
         assert_eq!(found.unwrap().epsg_code(), Some(4326), "{format}");
-        let (found, _) = crs(Some(&Crs::epsg(2193)));
-        if format != Format::Parquet {
-            assert_eq!(found.unwrap().epsg_code(), Some(2193), "{format}");
-        }
+        let (found, warnings) = crs(Some(&Crs::epsg(2193)));
+        assert_eq!(found.unwrap().epsg_code(), Some(2193), "{format}");
+        assert!(warnings.iter().all(|warning| !warning.contains("reference system")));
         let own = "PROJCS[\"mine\",GEOGCS[\"g\"],UNIT[\"metre\",1]]";
         let (found, warnings) = crs(Some(&Crs::of_wkt(own)));
         if format == Format::Parquet {
@@ -145,6 +144,63 @@ fn reference_systems_pass_through() {
         write(format, &path, POLYGONS, None).unwrap();
         assert!(read(format, &path).crs.is_none(), "{format}");
     }
+}
+
+/// A system that no authority knows.
+const OWN: &str = "PROJCS[\"mine\",GEOGCS[\"g\",DATUM[\"d\",SPHEROID[\"s\",6378137,298.25]],\
+    PRIMEM[\"Greenwich\",0],UNIT[\"degree\",0.0174532925199433]],\
+    PROJECTION[\"Albers_Conic_Equal_Area\"],PARAMETER[\"latitude_of_center\",10],\
+    PARAMETER[\"longitude_of_center\",20],PARAMETER[\"standard_parallel_1\",5],\
+    PARAMETER[\"standard_parallel_2\",15],PARAMETER[\"false_easting\",1000],\
+    PARAMETER[\"false_northing\",0],UNIT[\"US survey foot\",0.304800609601219],\
+    AXIS[\"Easting\",EAST],AXIS[\"Northing\",NORTH]]";
+
+#[test]
+fn a_system_of_ones_own_goes_through_parquet_into_every_table() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = file(&folder, Format::Parquet);
+    let written = write(Format::Parquet, &path, POLYGONS, Some(&Crs::of_wkt(OWN))).unwrap();
+    assert!(written.warnings.is_empty(), "{:?}", written.warnings);
+    let crs = read(Format::Parquet, &path).crs.unwrap();
+    let projjson: serde_json::Value = serde_json::from_str(&crs.projjson().unwrap()).unwrap();
+    let conversion = &projjson["conversion"];
+    assert_eq!(conversion["method"]["id"]["code"], 9822);
+    assert_eq!(conversion["parameters"][4]["value"], 1000);
+    assert_eq!(conversion["parameters"][4]["unit"]["conversion_factor"], 0.304800609601219);
+    for format in [Format::Gpkg, Format::Shp, Format::Fgb] {
+        let path = file(&folder, format);
+        write(format, &path, POLYGONS, Some(&crs)).unwrap();
+        let found = read(format, &path).crs.unwrap();
+        assert_eq!(found.name().as_deref(), Some("mine"), "{format}");
+        if format == Format::Shp {
+            assert_eq!(found.wkt().unwrap(), OWN);
+        }
+    }
+}
+
+/// The first page of a column of one text of a million letters claims to be as large as its size can say in
+/// as many bytes.
+#[test]
+fn a_page_of_parquet_that_claims_too_much_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = file(&folder, Format::Parquet);
+    let line = POLYGONS.lines().next().unwrap();
+    let line = line.replace("\"n\":1", &format!("\"n\":\"{}\"", "a".repeat(1_100_000)));
+    write(Format::Parquet, &path, &line, None).unwrap();
+    let mut bytes = std::fs::read(&path).unwrap();
+    let is_size = |window: &[u8]| {
+        // The type of a page of data is 0, or of a dictionary 4; its size is behind it.
+        let [0x15, 0 | 4, 0x15, a, b, c, d, 0x15] = *window else { return false };
+        let size =
+            [a, b, c, d].iter().rev().fold(0_u32, |n, &byte| n << 7 | u32::from(byte & 0x7f));
+        (2_200_000..2_300_000).contains(&size)
+    };
+    let at = bytes.windows(8).position(is_size).unwrap();
+    bytes[at + 3..at + 7].copy_from_slice(&[0xfe, 0xff, 0xff, 0x7f]);
+    std::fs::write(&path, bytes).unwrap();
+    let features: Vec<_> = read(Format::Parquet, &path).collect();
+    let error = features.last().unwrap().as_ref().unwrap_err().to_string();
+    assert!(error.contains("claims to hold 134217727"), "{error}");
 }
 
 #[test]

@@ -503,7 +503,7 @@ pub struct Common {
     /// Leave out features with more vertices
     #[arg(long, value_name = "N")]
     pub max_vertices: Option<usize>,
-    /// Leave out features whose domain and axes take longer, in seconds
+    /// Leave out features that take longer, from reading to writing, in seconds
     #[arg(long, value_name = "S", value_parser = positive, allow_negative_numbers = true)]
     pub max_seconds: Option<f64>,
     /// What to do about a bad feature
@@ -541,8 +541,12 @@ impl Common {
 
     /// When a feature that is begun now must be done.
     pub fn deadline(&self) -> Option<Instant> {
-        let limit = Duration::try_from_secs_f64(self.max_seconds?).ok()?;
-        Instant::now().checked_add(limit)
+        Instant::now().checked_add(self.limit()?)
+    }
+
+    /// How long a feature may take.
+    pub fn limit(&self) -> Option<Duration> {
+        Duration::try_from_secs_f64(self.max_seconds?).ok()
     }
 }
 

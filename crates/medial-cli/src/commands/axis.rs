@@ -21,7 +21,7 @@ use std::num::NonZeroU32;
 use std::path::Path;
 
 /// `medial prune`: `medial axis`, told what to remove.
-pub fn prune(args: &AxisArgs) -> Result<Status, Failure> {
+pub fn prune(args: &'static AxisArgs) -> Result<Status, Failure> {
     match args.pruning.threshold() {
         Some(_) => run_on(args, Documents::AsPolygons),
         None => Err(Failure::Usage(
@@ -31,11 +31,11 @@ pub fn prune(args: &AxisArgs) -> Result<Status, Failure> {
 }
 
 /// `medial axis`.
-pub fn run(args: &AxisArgs) -> Result<Status, Failure> {
+pub fn run(args: &'static AxisArgs) -> Result<Status, Failure> {
     run_on(args, Documents::Refused)
 }
 
-fn run_on(args: &AxisArgs, documents: Documents) -> Result<Status, Failure> {
+fn run_on(args: &'static AxisArgs, documents: Documents) -> Result<Status, Failure> {
     args.region.check()?;
     args.engine.check()?;
     if let Some(nodes) = args.nodes.as_deref() {
@@ -89,10 +89,10 @@ fn run_on(args: &AxisArgs, documents: Documents) -> Result<Status, Failure> {
     let mut write = std::time::Duration::ZERO;
     let (at_once, threads) = run.threads(&layer);
     let status = run.each(
-        &input,
+        input,
         layer,
         at_once,
-        |feature, domain, stages, bytes| {
+        move |feature, domain, stages, bytes| {
             let options = stages.options(threads);
             // All that is asked of a feature, or nothing.
             let axes = timed(&mut stages.engine, || {

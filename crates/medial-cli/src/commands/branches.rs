@@ -5,6 +5,7 @@ use crate::args::{BranchesArgs, Cut};
 use crate::failure::{Failure, Status};
 use crate::input::Documents;
 use crate::output::Output;
+use crate::parallel::kept;
 use crate::report::Entry;
 use crate::timings::{Stages, timed};
 use medial::axis::{Curve, Engine, MedialAxis, Side};
@@ -58,7 +59,7 @@ const LIMB_COLUMNS: &[&str] = &[
 const LIMB: (Measure, f64) = (Measure::RelativeExcess, 0.5);
 
 /// `medial branches`.
-pub fn run(args: &BranchesArgs) -> Result<Status, Failure> {
+pub fn run(args: &'static BranchesArgs) -> Result<Status, Failure> {
     args.region.check()?;
     args.engine.check()?;
     if let Some(other) = &args.matching {
@@ -74,7 +75,7 @@ pub fn run(args: &BranchesArgs) -> Result<Status, Failure> {
         engine: args.engine.engine,
     };
     let input = run.open_with(&args.input, Documents::AsPolygons)?;
-    plan.run(run, &input, |feature, domain, stages, options| {
+    plan.run(run, input, move |feature, domain, stages, options| {
         let tolerance = args.tolerance.unwrap_or_else(|| domain_tolerance(domain));
         if args.limbs {
             let sides = timed(&mut stages.engine, || {
@@ -217,7 +218,7 @@ fn limb_record(number: usize, limb: &Limb, tolerance: f64) -> Record {
 type Limbs = (usize, Vec<Limb>);
 
 /// Pairs of the limbs of one file with those of another one.
-fn pairs(args: &BranchesArgs, other: &Path) -> Result<Status, Failure> {
+fn pairs(args: &'static BranchesArgs, other: &Path) -> Result<Status, Failure> {
     if args.input.as_os_str() == "-" && other.as_os_str() == "-" {
         let why = "both shapes cannot come from standard input; name a file";
         return Err(Failure::Usage(why.to_owned()));
@@ -228,12 +229,13 @@ fn pairs(args: &BranchesArgs, other: &Path) -> Result<Status, Failure> {
     if status == Status::NoResult {
         return Ok(status);
     }
+    let others: &'static [Limbs] = kept(others);
     let mut output = Output::create(args.target.output.as_deref())?;
     let told = each(
         args,
         &args.input,
-        |feature, limbs, bytes: &mut Vec<u8>| {
-            for (number, theirs) in &others {
+        move |feature, limbs, bytes: &mut Vec<u8>| {
+            for (number, theirs) in others {
                 for (moves_first, found) in
                     [(true, of_kinds(&limbs.1, theirs)), (false, of_kinds(theirs, &limbs.1))]
                 {
@@ -269,10 +271,10 @@ fn of_kinds(one: &[Limb], other: &[Limb]) -> Vec<LimbPair> {
 }
 
 /// Calls `work` with the limbs of each feature of a file.
-fn each<R: Send>(
-    args: &BranchesArgs,
+fn each<R: Send + 'static>(
+    args: &'static BranchesArgs,
     input: &Path,
-    work: impl Fn(&Feature, Limbs, &mut Vec<u8>) -> R + Sync,
+    work: impl Fn(&Feature, Limbs, &mut Vec<u8>) -> R + Send + Sync + 'static,
     done: impl FnMut(R),
     write: &mut dyn FnMut(&[u8]) -> Result<(), Failure>,
 ) -> Result<Status, Failure> {
@@ -283,10 +285,10 @@ fn each<R: Send>(
     let (at_once, threads) = run.threads(&layer);
     let mut time = Duration::ZERO;
     let status = run.each(
-        &input,
+        input,
         layer,
         at_once,
-        |feature, domain, stages, bytes| {
+        move |feature, domain, stages, bytes| {
             let options = stages.options(threads);
             let engine = args.engine.engine.unwrap_or(Engine::PathTracing);
             let sides = sides(engine, domain, stages, &options)?;

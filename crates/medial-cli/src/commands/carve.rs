@@ -3,6 +3,7 @@ use super::records::{Found, Plan};
 use super::sink::{boundary, title};
 use crate::args::{CarveArgs, Units};
 use crate::failure::{Failure, Status};
+use crate::parallel::kept;
 use crate::report::Entry;
 use crate::timings::timed;
 use medial::engine::interior;
@@ -53,7 +54,7 @@ struct Part {
 }
 
 /// `medial carve`.
-pub fn run(args: &CarveArgs) -> Result<Status, Failure> {
+pub fn run(args: &'static CarveArgs) -> Result<Status, Failure> {
     let mut run = Run::new(&args.common)?;
     run.tolerance = args.tolerance;
     let plan = Plan {
@@ -78,16 +79,17 @@ pub fn run(args: &CarveArgs) -> Result<Status, Failure> {
         return Err(Failure::Usage(why.to_owned()));
     }
     let name = title("Tool path", &args.input);
+    let machine = kept(machine);
     plan.run_and_draw(
         run,
-        &input,
-        |_, domain, stages, options| {
+        input,
+        move |_, domain, stages, options| {
             let axis = timed(&mut stages.engine, || interior(domain, args.engine, options))
                 .map_err(|error| Entry::unfinished(&error))?;
             let carving = timed(&mut stages.operations, || carve(domain, &axis, &asked))
                 .map_err(|error| Entry::refused("tool_path", error.to_string()))?;
             let tolerance = args.tolerance.unwrap_or_else(|| domain_tolerance(domain));
-            if let Some(machine) = &machine {
+            if let Some(machine) = machine {
                 machine
                     .check_path(&carving)
                     .map_err(|error| Entry::refused("tool_path", error.to_string()))?;
@@ -99,7 +101,7 @@ pub fn run(args: &CarveArgs) -> Result<Status, Failure> {
             Ok(timed(&mut stages.write, || Found::Records(records(&carving, tolerance))))
         },
         |parts, stages| {
-            timed(&mut stages.write, || match &machine {
+            timed(&mut stages.write, || match machine {
                 Some(machine) => {
                     let path = |Part { path, tolerance }| (path.carving, tolerance);
                     let paths: Vec<(Carving, f64)> = parts.into_iter().map(path).collect();

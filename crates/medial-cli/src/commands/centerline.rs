@@ -17,7 +17,7 @@ use medial_io::{Feature, Format, csv, domain_tolerance, dxf, geojson, wkt};
 use std::time::Duration;
 
 /// `medial centerline`.
-pub fn run(args: &CenterlineArgs) -> Result<Status, Failure> {
+pub fn run(args: &'static CenterlineArgs) -> Result<Status, Failure> {
     let asked = asked(args)?;
     let mut run = Run::new(&args.common)?;
     run.tolerance = args.tolerance;
@@ -32,10 +32,10 @@ pub fn run(args: &CenterlineArgs) -> Result<Status, Failure> {
     let (at_once, threads) = run.threads(&layer);
     let z = args.z.is_some();
     let status = run.each(
-        &input,
+        input,
         layer,
         at_once,
-        |feature, domain, stages, bytes| {
+        move |feature, domain, stages, bytes| {
             let options = stages.options(threads);
             let axis = timed(&mut stages.engine, || interior(domain, args.engine, &options))
                 .map_err(|error| Entry::unfinished(&error))?;

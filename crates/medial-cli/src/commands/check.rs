@@ -6,10 +6,11 @@ use crate::output::Output;
 use crate::timings::timed;
 use crate::verdicts::{Document, Judged};
 use medial_io::{Error, axis_document};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
 
 /// `medial check`.
-pub fn run(args: &CheckArgs) -> Result<Status, Failure> {
+pub fn run(args: &'static CheckArgs) -> Result<Status, Failure> {
     if args.domain.as_os_str() == "-" && args.axis.as_os_str() == "-" {
         let why = "polygons and axes cannot both come from standard input; name a file";
         return Err(Failure::Usage(why.to_owned()));
@@ -17,23 +18,24 @@ pub fn run(args: &CheckArgs) -> Result<Status, Failure> {
     let mut run = Run::new(&args.common)?;
     run.tolerance = args.flattening.tolerance;
     let axes = timed(&mut run.stages.read, || Input::read(&args.axis))?;
-    let mut documents = timed(&mut run.stages.read, || read_documents(&axes))?;
+    let documents = Arc::new(timed(&mut run.stages.read, || read_documents(&axes))?);
+    let of_features = Arc::clone(&documents);
     let input = run.open(&args.domain)?;
     let layer = timed(&mut run.stages.read, || input.layer())?;
     let mut output = Output::create(args.output.as_deref())?;
     let (at_once, _) = run.threads(&layer);
-    let told = |judged: &Judged| match args.to {
+    let told = move |judged: &Judged| match args.to {
         Form::Text => judged.text(),
         Form::Json => judged.json(),
     };
     let mut n_defects = 0;
-    let mut seen = Vec::new();
+    let mut seen = BTreeSet::new();
     let status = run.each(
-        &input,
+        input,
         layer,
         at_once,
-        |feature, domain, stages, bytes| {
-            let of_feature = documents.get(&feature.index).map_or(&[][..], Vec::as_slice);
+        move |feature, domain, stages, bytes| {
+            let of_feature = of_features.get(&feature.index).map_or(&[][..], Vec::as_slice);
             let judged = timed(&mut stages.operations, || Judged::all(feature, domain, of_feature));
             timed(&mut stages.write, || {
                 judged.iter().for_each(|one| bytes.extend(told(one).into_bytes()));
@@ -42,14 +44,11 @@ pub fn run(args: &CheckArgs) -> Result<Status, Failure> {
         },
         |(feature, defects)| {
             n_defects += defects;
-            seen.push(feature);
+            seen.insert(feature);
         },
         |bytes| output.write(bytes),
     )?;
-    for feature in seen {
-        documents.remove(&feature);
-    }
-    for feature in documents.into_keys() {
+    for &feature in documents.keys().filter(|feature| !seen.contains(*feature)) {
         let judged = Judged::without_domain(feature);
         n_defects += judged.defects.len();
         output.write(told(&judged).as_bytes())?;

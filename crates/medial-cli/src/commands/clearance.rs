@@ -45,7 +45,7 @@ const COLUMNS: &[&str] = &[
 const STATION_COLUMNS: &[&str] = &["station", "x", "y", "width"];
 
 /// `medial clearance`.
-pub fn run(args: &ClearanceArgs) -> Result<Status, Failure> {
+pub fn run(args: &'static ClearanceArgs) -> Result<Status, Failure> {
     args.region.check()?;
     let mut run = Run::new(&args.common)?;
     run.tolerance = args.tolerance;
@@ -57,17 +57,17 @@ pub fn run(args: &ClearanceArgs) -> Result<Status, Failure> {
 }
 
 /// Writes necks, or the largest disks.
-fn places(args: &ClearanceArgs, mut run: Run<'_>) -> Result<Status, Failure> {
+fn places(args: &'static ClearanceArgs, mut run: Run) -> Result<Status, Failure> {
     let plan = plan_of_places(args)?;
     let input = run.open_with(&args.input, Documents::AsPolygons)?;
-    plan.run(run, &input, |feature, domain, stages, options| {
+    plan.run(run, input, move |feature, domain, stages, options| {
         let place = |polygon: u32| (feature.index, polygon);
         all_places(args, domain, options, stages, &place)
     })
 }
 
 /// How places are written; fails if a picture of them is asked for.
-fn plan_of_places(args: &ClearanceArgs) -> Result<Plan<'_>, Failure> {
+fn plan_of_places(args: &'static ClearanceArgs) -> Result<Plan, Failure> {
     let plan = Plan {
         target: &args.target,
         thing: if args.largest { "disks" } else { "necks" },
@@ -103,7 +103,7 @@ fn all_places(
 }
 
 /// Writes necks, or the largest disks, of all features as one shape.
-fn together(args: &ClearanceArgs, mut run: Run<'_>) -> Result<Status, Failure> {
+fn together(args: &'static ClearanceArgs, mut run: Run) -> Result<Status, Failure> {
     Metric::refuse(run.common, "--together")?;
     let plan = plan_of_places(args)?;
     let format = plan.format()?;
@@ -112,7 +112,7 @@ fn together(args: &ClearanceArgs, mut run: Run<'_>) -> Result<Status, Failure> {
     let common = run.common;
     plan.run_and_draw(
         run,
-        &input,
+        input,
         // Each is a valid shape by itself, or left out and reported.
         |feature, _, _, _| Ok(Found::Part((feature.index, feature.polygons.clone()))),
         |members, stages| {
@@ -155,7 +155,7 @@ fn together(args: &ClearanceArgs, mut run: Run<'_>) -> Result<Status, Failure> {
 }
 
 /// Writes the width along main lines.
-fn profiles(args: &ClearanceArgs, mut run: Run<'_>) -> Result<Status, Failure> {
+fn profiles(args: &'static ClearanceArgs, mut run: Run) -> Result<Status, Failure> {
     let plan = Plan {
         target: &args.target,
         thing: "profiles",
@@ -167,8 +167,8 @@ fn profiles(args: &ClearanceArgs, mut run: Run<'_>) -> Result<Status, Failure> {
     let format = plan.format()?;
     plan.run_and_draw(
         run,
-        &input,
-        |feature, domain, stages, options| {
+        input,
+        move |feature, domain, stages, options| {
             let axis = timed(&mut stages.engine, || interior(domain, args.engine, options))
                 .map_err(|error| Entry::unfinished(&error))?;
             let tolerance = args.tolerance.unwrap_or_else(|| domain_tolerance(domain));

@@ -7,7 +7,7 @@ use crate::timings::timed;
 use std::num::NonZeroUsize;
 
 /// `medial compare`.
-pub fn run(args: &CompareArgs) -> Result<Status, Failure> {
+pub fn run(args: &'static CompareArgs) -> Result<Status, Failure> {
     args.region.check()?;
     let mut run = Run::new(&args.common)?;
     run.tolerance = args.flattening.tolerance;
@@ -19,11 +19,11 @@ pub fn run(args: &CompareArgs) -> Result<Status, Failure> {
     let mut totals = Totals::default();
     let mut begun = false;
     let status = run.each(
-        &input,
+        input,
         layer,
         // Two at once would share the memory and the processor whose use is measured.
         NonZeroUsize::MIN,
-        |feature, domain, stages, bytes| {
+        move |feature, domain, stages, bytes| {
             let options = stages.options(threads);
             // All that is asked of a feature, or nothing.
             let mut of_sides = Vec::new();

@@ -1,4 +1,5 @@
 use super::features::Run;
+use super::sink::lost;
 use crate::args::{CompressArgs, Rows};
 use crate::failure::{Failure, Status};
 use crate::input::Documents;
@@ -15,7 +16,7 @@ use std::io::IsTerminal as _;
 use std::time::Duration;
 
 /// `medial compress`.
-pub fn run(args: &CompressArgs) -> Result<Status, Failure> {
+pub fn run(args: &'static CompressArgs) -> Result<Status, Failure> {
     let mut run = Run::new(&args.common)?;
     run.tolerance = args.flattening.tolerance;
     let file = args.output.as_deref().filter(|path| path.as_os_str() != "-");
@@ -24,16 +25,19 @@ pub fn run(args: &CompressArgs) -> Result<Status, Failure> {
     let layer = timed(&mut run.stages.read, || input.layer())?;
     let crs = layer.crs.as_ref().and_then(Crs::member);
     let output = Output::create(file)?;
+    if let Some(lost) = lost(Format::Maxis, layer.crs.as_ref()).filter(|_| !args.common.quiet) {
+        crate::progress::line(&format!("warning: {}: {lost}", output.name()));
+    }
     // The sizes go where the file does not.
     let mut rows = file.map(|_| Output::create(None)).transpose()?;
     let (at_once, threads) = run.threads(&layer);
     let mut totals = Totals::default();
     let mut begun = false;
     let status = run.each(
-        &input,
+        input,
         layer,
         at_once,
-        |feature, domain, stages, bytes| {
+        move |feature, domain, stages, bytes| {
             let options = stages.options(threads);
             let shape = shape(feature, domain, args, &options, stages)?;
             let record = Record { feature: feature.index, id: feature.id.clone(), shape };

@@ -6,23 +6,24 @@ use crate::guard::guarded;
 use crate::input::{Documents, Opened, Polygons};
 use crate::metric::Metric;
 use crate::output::Output;
-use crate::parallel::ordered;
+use crate::parallel::{Limit, kept, ordered};
 use crate::progress::Progress;
 use crate::report::{self, Entry, FeatureReport, Report};
 use crate::timings::{self, Stages, timed};
-use medial::domain::Domain;
+use medial::domain::{self, Domain};
+use medial::engine::EngineError;
 use medial::geom::Point;
 use medial::raster::Grid;
 use medial_io::{Error, Feature, FeatureError, Json, Layer, Part, ReadOptions, geojson};
 use std::num::NonZeroUsize;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
 /// A run of a command over the features of an input.
-pub struct Run<'a> {
-    pub common: &'a Common,
+pub struct Run {
+    pub common: &'static Common,
     /// When the command began.
     pub start: Instant,
     /// Time spent so far.
@@ -41,8 +42,6 @@ struct Outcome<R> {
     id: Option<Json>,
     warnings: Vec<String>,
     entries: Vec<Entry>,
-    /// Why the input ends here, though it should not.
-    broken: Option<String>,
     /// `None` if it was refused; then the last entry says why.
     result: Option<R>,
     /// Where its bytes end among those of its batch; they begin where the feature before ends.
@@ -50,9 +49,9 @@ struct Outcome<R> {
     stages: Stages,
 }
 
-impl<'a> Run<'a> {
+impl Run {
     /// A run that begins now; fails if the files beside its result cannot be written.
-    pub fn new(common: &'a Common) -> Result<Self, Failure> {
+    pub fn new(common: &'static Common) -> Result<Self, Failure> {
         let create = |path: &Option<PathBuf>| {
             path.as_deref().map(|path| Output::create(Some(path))).transpose()
         };
@@ -68,13 +67,17 @@ impl<'a> Run<'a> {
     }
 
     /// Opens an input of polygons.
-    pub fn open(&mut self, path: &Path) -> Result<Polygons, Failure> {
+    pub fn open(&mut self, path: &Path) -> Result<&'static Polygons, Failure> {
         self.open_with(path, Documents::Refused)
     }
 
     /// The same where axis documents may stand for polygons.
-    pub fn open_with(&mut self, path: &Path, documents: Documents) -> Result<Polygons, Failure> {
-        self.opened(path)?.polygons(documents)
+    pub fn open_with(
+        &mut self,
+        path: &Path,
+        documents: Documents,
+    ) -> Result<&'static Polygons, Failure> {
+        Ok(kept(self.opened(path)?.polygons(documents)?))
     }
 
     /// Opens an input of polygons or axes.
@@ -98,39 +101,50 @@ impl<'a> Run<'a> {
     /// out.
     ///
     /// The result is whether all went well; a stop at a bad feature is [`Status::NoResult`].
-    pub fn each<R: Send>(
+    /// A feature that takes longer than it may, and does not notice itself, is given up.
+    pub fn each<R: Send + 'static>(
         &mut self,
         input: &Polygons,
-        layer: Layer<'_>,
+        layer: Layer<'static>,
         at_once: NonZeroUsize,
-        work: impl Fn(&Feature, &Domain, &mut Stages, &mut Vec<u8>) -> Result<R, Entry> + Sync,
+        work: impl Fn(&Feature, &Domain, &mut Stages, &mut Vec<u8>) -> Result<R, Entry>
+        + Send
+        + Sync
+        + 'static,
         mut done: impl FnMut(R),
         mut write: impl FnMut(&[u8]) -> Result<(), Failure>,
     ) -> Result<Status, Failure> {
         let common = self.common;
         let progress = Progress::new(common.progress, common.quiet, layer.len);
         let mut report = Report { input: input.name.clone(), ..Report::default() };
-        let mut find = Duration::ZERO;
+        for warning in &layer.warnings {
+            progress.warning(&format!("{}: {warning}", input.name));
+        }
+        let find = Arc::new(Mutex::new(Duration::ZERO));
         // Bytes of earlier batches, for their memory: it grows once and stays warm.
-        let spare = Mutex::new(Vec::new());
-        let spare = || spare.lock().unwrap_or_else(PoisonError::into_inner);
-        let parts = timed(&mut find, || told_of_degrees(layer, input, common.metric, &progress));
+        let spare = Arc::new(Mutex::new(Vec::new()));
+        let taken = Arc::clone(&spare);
+        let parts =
+            timed(&mut locked(&find), || told_of_degrees(layer, input, common.metric, &progress));
+        let limit = common.limit().map(|limit| Limit {
+            after: limit.saturating_add(GRACE),
+            instead: |number| (vec![Outcome::given_up(number)], Vec::new()),
+        });
+        // What is given up takes no others with it.
+        let most = if limit.is_some() { 1 } else { BATCH };
         let broke = ordered(
-            Batches { parts, find: &mut find },
+            Batches { parts, find: Arc::clone(&find), most },
             at_once,
-            |batch| {
-                let mut bytes = spare().pop().unwrap_or_default();
+            move |batch: Vec<Part<'static>>| {
+                let mut bytes: Vec<u8> = locked(&taken).pop().unwrap_or_default();
                 let process = |part| process(part, common, &mut bytes, &work);
                 (batch.into_iter().map(process).collect::<Vec<_>>(), bytes)
             },
+            limit.as_ref(),
             |(outcomes, mut bytes)| {
                 let mut end = 0;
                 let mut stopped = false;
                 for outcome in outcomes {
-                    if let Some(why) = outcome.broken {
-                        let why = format_args!("cannot read: {why}");
-                        return ControlFlow::Break(Some(Failure::file(&input.name, why)));
-                    }
                     self.stages.add(outcome.stages);
                     progress.step();
                     let last = outcome.end;
@@ -146,7 +160,7 @@ impl<'a> Run<'a> {
                 let written = write(&bytes[..end]);
                 if bytes.capacity() <= SPARE_BYTES {
                     bytes.clear();
-                    spare().push(bytes);
+                    locked(&spare).push(bytes);
                 }
                 match written {
                     Err(failure) => ControlFlow::Break(Some(failure)),
@@ -155,7 +169,7 @@ impl<'a> Run<'a> {
                 }
             },
         );
-        self.stages.read += find;
+        self.stages.read += *locked(&find);
         progress.finish();
         if let Some(output) = self.report.take() {
             output.whole(report.text().as_bytes())?;
@@ -191,6 +205,27 @@ impl<'a> Run<'a> {
     }
 }
 
+impl<R> Outcome<R> {
+    /// Nothing yet, of a feature whose bytes begin here.
+    fn empty(end: usize) -> Self {
+        Self {
+            index: 0,
+            id: None,
+            warnings: Vec::new(),
+            entries: Vec::new(),
+            result: None,
+            end,
+            stages: Stages::default(),
+        }
+    }
+
+    /// That of a feature that has not come back in time.
+    fn given_up(index: usize) -> Self {
+        let entries = vec![Entry::unfinished(&EngineError::TimeLimit)];
+        Self { index, entries, ..Self::empty(0) }
+    }
+}
+
 fn all_processors() -> NonZeroUsize {
     std::thread::available_parallelism().unwrap_or(NonZeroUsize::MIN)
 }
@@ -205,20 +240,29 @@ const BATCH_BYTES: usize = 16 << 10;
 /// Most bytes kept for the next batch; what a large feature took is given back.
 const SPARE_BYTES: usize = 1 << 20;
 
-/// The features of a layer in batches, with the time it took to find them.
-struct Batches<'a, I> {
-    parts: I,
-    find: &'a mut Duration,
+/// What a feature may take beyond its limit, for whatever looks at the clock to notice by itself.
+const GRACE: Duration = Duration::from_millis(500);
+
+fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-impl<'p, I: Iterator<Item = Part<'p>>> Iterator for Batches<'_, I> {
+/// The features of a layer in batches, with the time it took to find them.
+struct Batches<I> {
+    parts: I,
+    find: Arc<Mutex<Duration>>,
+    /// Most features of a batch.
+    most: usize,
+}
+
+impl<'p, I: Iterator<Item = Part<'p>>> Iterator for Batches<I> {
     type Item = Vec<Part<'p>>;
 
     fn next(&mut self) -> Option<Self::Item> {
         let mut batch = Vec::new();
-        timed(self.find, || {
+        timed(&mut locked(&self.find), || {
             let mut bytes = 0;
-            while batch.len() < BATCH && bytes < BATCH_BYTES {
+            while batch.len() < self.most && bytes < BATCH_BYTES {
                 let Some(part) = self.parts.next() else { break };
                 bytes += part.size();
                 batch.push(part);
@@ -275,23 +319,19 @@ fn process<R>(
     bytes: &mut Vec<u8>,
     work: impl Fn(&Feature, &Domain, &mut Stages, &mut Vec<u8>) -> Result<R, Entry>,
 ) -> Outcome<R> {
-    let mut outcome = Outcome {
-        index: 0,
-        id: None,
-        warnings: Vec::new(),
-        entries: Vec::new(),
-        broken: None,
-        result: None,
-        end: bytes.len(),
-        stages: Stages::default(),
-    };
+    let mut outcome = Outcome::empty(bytes.len());
+    outcome.stages.deadline = common.deadline();
     let mut feature = match timed(&mut outcome.stages.read, || part.read()) {
         Ok(feature) => feature,
         Err(FeatureError { feature, id, error }) => {
             outcome.index = feature;
             outcome.id = id;
             if let Error::Interrupted { source } = error {
-                outcome.broken = Some(plain(&source));
+                let why = format!(
+                    "cannot be read, nor what follows it: {}; what comes before is all that is used",
+                    plain(&source)
+                );
+                outcome.entries.push(Entry::refused("broken_off", why));
                 return outcome;
             }
             outcome.entries.push(Entry::refused(error.code(), error.to_string()));
@@ -313,8 +353,7 @@ fn process<R>(
     };
     let result = guarded(|| {
         let mut stages = outcome.stages;
-        stages.deadline = common.deadline();
-        let result = valid(&feature, common, &mut stages.domain).and_then(|domain| {
+        let result = valid(&feature, common, &mut stages).and_then(|domain| {
             for (warn, entry) in report::repairs(domain.report(), feature.polygons.len() == 1) {
                 if warn {
                     outcome.warnings.push(entry.message.clone());
@@ -345,7 +384,7 @@ fn process<R>(
 }
 
 /// The domain of a feature, or why it has none.
-fn valid(feature: &Feature, common: &Common, time: &mut Duration) -> Result<Domain, Entry> {
+fn valid(feature: &Feature, common: &Common, stages: &mut Stages) -> Result<Domain, Entry> {
     if !feature.polygonal {
         let found = &feature.geometry;
         let why = format!("is {found}; only polygons have a medial axis, leave it out");
@@ -364,8 +403,9 @@ fn valid(feature: &Feature, common: &Common, time: &mut Duration) -> Result<Doma
         let why = format!("has {n_vertices} vertices; --max-vertices allows {most}");
         return Err(Entry::refused("max_vertices", why));
     }
-    let options = common.domain_options(feature.fill);
-    timed(time, || Domain::from_polygons(polygons, &options))
+    let deadline = stages.deadline;
+    let options = domain::Options { deadline, ..common.domain_options(feature.fill) };
+    timed(&mut stages.domain, || Domain::from_polygons(polygons, &options))
         .map_err(|error| Entry::invalid(&error))
 }
 

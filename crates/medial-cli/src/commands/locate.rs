@@ -11,7 +11,7 @@ use medial_io::location_document;
 use std::time::Duration;
 
 /// `medial locate`.
-pub fn run(args: &LocateArgs) -> Result<Status, Failure> {
+pub fn run(args: &'static LocateArgs) -> Result<Status, Failure> {
     let point = Point::new(args.x, args.y);
     Metric::refuse(&args.common, "locate")?;
     let mut run = Run::new(&args.common)?;
@@ -22,10 +22,10 @@ pub fn run(args: &LocateArgs) -> Result<Status, Failure> {
     let mut write = Duration::ZERO;
     let (at_once, _) = run.threads(&layer);
     let status = run.each(
-        &input,
+        input,
         layer,
         at_once,
-        |feature, domain, stages, bytes| {
+        move |feature, domain, stages, bytes| {
             // One point among the edges near it costs less than an axis, and is as exact.
             let located = timed(&mut stages.operations, || {
                 Voronoi::new(domain, &[]).and_then(|voronoi| voronoi.locate(point))

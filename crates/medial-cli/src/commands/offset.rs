@@ -31,7 +31,7 @@ const FORMATS: &[Format] = &[
 ];
 
 /// `medial offset`.
-pub fn run(args: &OffsetArgs) -> Result<Status, Failure> {
+pub fn run(args: &'static OffsetArgs) -> Result<Status, Failure> {
     let mut run = Run::new(&args.common)?;
     run.tolerance = args.tolerance;
     let plan = Plan {
@@ -50,8 +50,8 @@ pub fn run(args: &OffsetArgs) -> Result<Status, Failure> {
     let options = Options { title: title("Offsets", &args.input), ..Options::default() };
     plan.run_and_draw(
         run,
-        &input,
-        |feature, domain, stages, options| {
+        input,
+        move |feature, domain, stages, options| {
             let outlines = parallels(args, domain, stages, options)?;
             if format == Format::Svg {
                 return Ok(Found::Part(Parallels { boundary: boundary(domain), outlines }));

@@ -5,6 +5,7 @@ use super::sink::boundary;
 use crate::args::{Method, ReconstructArgs};
 use crate::failure::{Failure, Status};
 use crate::input::{Input, Opened};
+use crate::parallel::kept;
 use crate::progress::Progress;
 use crate::report::Entry;
 use crate::timings::timed;
@@ -24,7 +25,7 @@ const MOST_POINTS: f64 = 1e6;
 const COLUMNS: &[&str] = &["method", "error", "area"];
 
 /// `medial reconstruct`.
-pub fn run(args: &ReconstructArgs) -> Result<Status, Failure> {
+pub fn run(args: &'static ReconstructArgs) -> Result<Status, Failure> {
     if args.step.is_some() && args.method == Method::Exact {
         let why = "--step is for --method tangents and disks, not for exact";
         return Err(Failure::Usage(why.to_owned()));
@@ -40,9 +41,9 @@ pub fn run(args: &ReconstructArgs) -> Result<Status, Failure> {
     };
     let input = match run.opened(&args.input)? {
         Opened::Axes(input) => return of_documents(args, &plan, &input),
-        Opened::Polygons(polygons) => polygons,
+        Opened::Polygons(polygons) => kept(polygons),
     };
-    plan.run(run, &input, |feature, domain, stages, options| {
+    plan.run(run, input, move |feature, domain, stages, options| {
         let axis = timed(&mut stages.engine, || interior(domain, args.engine, options))
             .map_err(|error| Entry::unfinished(&error))?;
         timed(&mut stages.operations, || {
@@ -58,7 +59,7 @@ pub fn run(args: &ReconstructArgs) -> Result<Status, Failure> {
 }
 
 /// Axes that were computed before.
-fn of_documents(args: &ReconstructArgs, plan: &Plan<'_>, input: &Input) -> Result<Status, Failure> {
+fn of_documents(args: &ReconstructArgs, plan: &Plan, input: &Input) -> Result<Status, Failure> {
     if args.pruning.threshold().is_some() {
         let why = "axis documents are rebuilt as they are; prune them first, or give polygons";
         return Err(Failure::Usage(why.to_owned()));

@@ -18,8 +18,8 @@ use std::path::Path;
 use std::time::Duration;
 
 /// How records are made and written.
-pub struct Plan<'a> {
-    pub target: &'a Target,
+pub struct Plan {
+    pub target: &'static Target,
     /// What the records are called, for messages.
     pub thing: &'static str,
     /// Formats of the output.
@@ -46,7 +46,7 @@ pub const DRAWN_LINES: &[Format] = &[
 /// Formats of polygons.
 pub const POLYGONS: &[Format] = &record::FORMATS;
 
-impl Plan<'_> {
+impl Plan {
     /// The file of the output, if it is not standard output.
     fn file(&self) -> Option<&Path> {
         self.target.output.as_deref().filter(|path| path.as_os_str() != "-")
@@ -89,32 +89,36 @@ impl Plan<'_> {
     /// Calls `work` for each valid feature of an input and writes the records that it gives.
     pub fn run(
         &self,
-        run: Run<'_>,
-        input: &Polygons,
+        run: Run,
+        input: &'static Polygons,
         work: impl Fn(
             &Feature,
             &Domain,
             &mut Stages,
             &engine::Options<'_>,
         ) -> Result<Vec<Record>, Entry>
-        + Sync,
+        + Send
+        + Sync
+        + 'static,
     ) -> Result<Status, Failure> {
-        let work = |feature: &Feature,
-                    domain: &Domain,
-                    stages: &mut Stages,
-                    options: &engine::Options<'_>| {
+        let work = move |feature: &Feature,
+                         domain: &Domain,
+                         stages: &mut Stages,
+                         options: &engine::Options<'_>| {
             work(feature, domain, stages, options).map(Found::<()>::Records)
         };
         self.run_and_draw(run, input, work, |_, _| Ok(Vec::new()))
     }
 
     /// The same where something is made of all features at once, a picture or records: `draw` makes it.
-    pub fn run_and_draw<P: Send>(
+    pub fn run_and_draw<P: Send + 'static>(
         &self,
-        mut run: Run<'_>,
-        input: &Polygons,
+        mut run: Run,
+        input: &'static Polygons,
         work: impl Fn(&Feature, &Domain, &mut Stages, &engine::Options<'_>) -> Result<Found<P>, Entry>
-        + Sync,
+        + Send
+        + Sync
+        + 'static,
         draw: impl FnOnce(Vec<P>, &mut Stages) -> Result<Vec<u8>, Failure>,
     ) -> Result<Status, Failure> {
         let format = self.format()?;
@@ -123,11 +127,12 @@ impl Plan<'_> {
         let mut parts = Vec::new();
         let mut write = Duration::ZERO;
         let (at_once, threads) = run.threads(&layer);
+        let (engine, columns) = (self.engine, self.columns);
         let status = run.each(
             input,
             layer,
             at_once,
-            |feature, domain, stages, bytes| {
+            move |feature, domain, stages, bytes| {
                 let options = stages.options(threads);
                 let records = match work(feature, domain, stages, &options)? {
                     Found::Records(records) => records,
@@ -138,8 +143,8 @@ impl Plan<'_> {
                     Found::Part(part) => return Ok(Some(part)),
                 };
                 timed(&mut stages.write, || {
-                    let engine = engine_for(feature, self.engine);
-                    record::write(bytes, format, feature, engine, self.columns, &records);
+                    let engine = engine_for(feature, engine);
+                    record::write(bytes, format, feature, engine, columns, &records);
                 });
                 Ok(None)
             },

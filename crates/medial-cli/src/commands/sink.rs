@@ -105,6 +105,9 @@ impl Sink {
         quiet: bool,
     ) -> Result<Self, Failure> {
         let output = Output::create(path)?;
+        if let Some(lost) = lost(format, crs.as_ref()).filter(|_| !quiet) {
+            crate::progress::line(&format!("warning: {}: {lost}", output.name()));
+        }
         let table = match path {
             Some(path) if format.is_table() => Some(Table::create(path, format, quiet)?),
             _ => None,
@@ -162,6 +165,20 @@ impl Sink {
         self.output.write(picture)?;
         self.output.finish()
     }
+}
+
+/// What to say of a reference system for which a format has no place. Longitudes and latitudes need none.
+pub fn lost(format: Format, crs: Option<&Crs>) -> Option<String> {
+    const WGS_84: u32 = 4326;
+    let crs = crs.filter(|crs| !crs.is_assumed() && crs.epsg_code() != Some(WGS_84))?;
+    let why = match format {
+        Format::GeoJson | Format::Maxis if crs.member().is_some() => return None,
+        Format::GeoJson | Format::Maxis => "names systems by a code, and it has none that is known",
+        // Where they cannot keep it they say so themselves.
+        format if format.is_table() => return None,
+        _ => "has no place for it",
+    };
+    Some(format!("the reference system {crs} is not written: {format} {why}"))
 }
 
 /// What comes first in a format: the names of columns, or a head with the unit of the input.

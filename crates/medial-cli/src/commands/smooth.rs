@@ -16,7 +16,7 @@ const PROMINENCE: (Measure, f64) = (Measure::Prominence, 0.1);
 const COLUMNS: &[&str] = &["measure", "threshold", "distance", "area"];
 
 /// `medial smooth`.
-pub fn run(args: &SmoothArgs) -> Result<Status, Failure> {
+pub fn run(args: &'static SmoothArgs) -> Result<Status, Failure> {
     let (measure, threshold) = args.pruning.threshold().unwrap_or(PROMINENCE);
     let mut run = Run::new(&args.common)?;
     run.tolerance = args.tolerance;
@@ -28,7 +28,7 @@ pub fn run(args: &SmoothArgs) -> Result<Status, Failure> {
         engine: Some(args.engine),
     };
     let input = run.open_with(&args.input, Documents::AsPolygons)?;
-    plan.run(run, &input, |_, domain, stages, options| {
+    plan.run(run, input, move |_, domain, stages, options| {
         let axis = timed(&mut stages.engine, || interior(domain, args.engine, options))
             .map_err(|error| Entry::unfinished(&error))?;
         timed(&mut stages.operations, || {

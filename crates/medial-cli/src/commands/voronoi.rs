@@ -14,7 +14,7 @@ use medial_io::{Feature, Format, geojson, voronoi_document};
 use std::time::Duration;
 
 /// `medial voronoi`.
-pub fn run(args: &VoronoiArgs) -> Result<Status, Failure> {
+pub fn run(args: &'static VoronoiArgs) -> Result<Status, Failure> {
     let mut run = Run::new(&args.common)?;
     run.tolerance = args.tolerance;
     let format = output_format(args)?;
@@ -31,10 +31,10 @@ pub fn run(args: &VoronoiArgs) -> Result<Status, Failure> {
     let mut write = Duration::ZERO;
     let (at_once, threads) = run.threads(&layer);
     let status = run.each(
-        &input,
+        input,
         layer,
         at_once,
-        |feature, domain, stages, bytes| {
+        move |feature, domain, stages, bytes| {
             let options = stages.options(threads);
             let axes =
                 timed(&mut stages.engine, || trace(args.engine, &args.region, domain, &options))?;

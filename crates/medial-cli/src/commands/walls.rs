@@ -14,7 +14,7 @@ use medial_io::{Format, domain_tolerance};
 const COLUMNS: &[&str] = &["length", "width_min", "width_max", "width_mean", "closed"];
 
 /// `medial walls`.
-pub fn run(args: &WallsArgs) -> Result<Status, Failure> {
+pub fn run(args: &'static WallsArgs) -> Result<Status, Failure> {
     if args.min > args.max {
         let why = format!("--min {} is more than --max {}", args.min, args.max);
         return Err(Failure::Usage(why));
@@ -35,8 +35,8 @@ pub fn run(args: &WallsArgs) -> Result<Status, Failure> {
     let picture = Options { title: title("Thin walls", &args.input), ..Options::default() };
     plan.run_and_draw(
         run,
-        &input,
-        |_, domain, stages, options| {
+        input,
+        move |_, domain, stages, options| {
             let axis = timed(&mut stages.engine, || interior(domain, args.engine, options))
                 .map_err(|error| Entry::unfinished(&error))?;
             let walls = timed(&mut stages.operations, || thin_walls(domain, &axis, &asked))

@@ -18,12 +18,14 @@ mod affine;
 mod arc;
 mod bernstein;
 mod bezier;
+mod fit;
 mod nurbs;
 mod pieces;
 
 pub(crate) use affine::Affine;
 pub(crate) use arc::Arc;
 pub(crate) use bezier::Bezier;
+pub(crate) use fit::Fit;
 pub(crate) use nurbs::Nurbs;
 
 use crate::path::RELATIVE_TOLERANCE;
@@ -100,6 +102,13 @@ impl Contour {
 
     pub fn end(&self) -> Point {
         self.segments.last().map_or(self.start, Segment::end)
+    }
+
+    /// About as many bytes as it has as text.
+    pub fn size(&self) -> usize {
+        /// A curve has two or three points of two numbers, each of ten characters.
+        const SEGMENT: usize = 60;
+        SEGMENT * self.segments.len()
     }
 
     pub fn line_to(&mut self, to: Point) {

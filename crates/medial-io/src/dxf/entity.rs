@@ -1,7 +1,7 @@
 //! Entities as outlines.
 
 use super::groups::Group;
-use crate::curves::{Affine, Arc, Contour, Nurbs, Segment};
+use crate::curves::{Affine, Arc, Bezier, Contour, Fit, Nurbs, Segment};
 use crate::{Error, dxf::hatch};
 use medial::geom::Point;
 use std::f64::consts::TAU;
@@ -270,16 +270,33 @@ fn ellipse(fields: &Fields) -> Result<Drawn, Error> {
 fn spline(fields: &Fields) -> Result<Drawn, Error> {
     let points = fields.points(10)?;
     if points.is_empty() && fields.find(11).is_some() {
-        let why = "it has fit points only; save it with control points, or explode it".to_owned();
-        return Err(Error::Curve { why: format!("a spline cannot be read: {why}") });
+        return fitted(fields);
     }
     let degree = usize::try_from(fields.whole_or(71, 3)?).unwrap_or(0);
     let spline = Nurbs { degree, knots: fields.reals(40)?, points, weights: fields.reals(41)? };
     Ok(Drawn::Open(of_spline(&spline)?))
 }
 
+/// A spline that is given by the points it goes through: cubic, whatever its degree says.
+fn fitted(fields: &Fields) -> Result<Drawn, Error> {
+    /// The bits of a closed and of a periodic spline.
+    const ROUND: i64 = 1 | 2;
+    let tangent = |code: i32| match (fields.real(code)?, fields.real(code + 10)?) {
+        (Some(x), Some(y)) => Ok::<_, Error>(Some(Point::new(x, y))),
+        _ => Ok(None),
+    };
+    let closed = fields.whole_or(70, 0)? & ROUND != 0;
+    let tangents = [tangent(12)?, tangent(13)?];
+    let fit = Fit { points: fields.points(11)?, tangents, closed };
+    let contour = of_curves(fit.beziers()?);
+    Ok(if closed { Drawn::Closed(contour) } else { Drawn::Open(contour) })
+}
+
+fn of_curves(curves: Vec<Bezier>) -> Contour {
+    let start = curves.first().map_or(Point::default(), Bezier::start);
+    Contour { start, segments: curves.into_iter().map(Segment::Bezier).collect() }
+}
+
 pub(super) fn of_spline(spline: &Nurbs) -> Result<Contour, Error> {
-    let curves = spline.beziers()?;
-    let start = curves.first().map_or(Point::default(), |curve| curve.start());
-    Ok(Contour { start, segments: curves.into_iter().map(Segment::Bezier).collect() })
+    Ok(of_curves(spline.beziers()?))
 }

@@ -3,7 +3,8 @@
 //! # Contract
 //! Closed outlines of a layer that lie in one another are one polygon with holes, by their depth; lines that
 //! end where others begin are one outline. A hatch is a feature of its own. What bounds no polygon is an item
-//! of the layer too, with the reason. Only model space is read, seen from above.
+//! of the layer too, with the reason. Only model space is read, seen from above. What nobody sees, on layers
+//! that are off or frozen and entities that are invisible, is passed over, unless its layer is asked for.
 
 use super::chain::chains;
 use super::entity::{Drawn, Entity, Fields};
@@ -11,7 +12,7 @@ use super::groups::{Group, groups};
 use super::nest::nests;
 use crate::curves::{Affine, Contour, flatten};
 use crate::json::{quoted, whole};
-use crate::{Error, Feature, FeatureError, Json, Layer, Note, ReadOptions};
+use crate::{Error, Feature, FeatureError, Json, Layer, Note, Part, ReadOptions};
 use medial::domain::FillRule;
 use medial::geom::Point;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
@@ -53,10 +54,11 @@ pub fn read<'a>(bytes: &[u8], options: &ReadOptions) -> Result<Layer<'a>, Error>
     let mut drawing = Drawing::default();
     let top = Place { to_plane: Affine::IDENTITY, layer: None, block: None, depth: 0 };
     let mut n_drawn = 0;
+    let only = options.layer.as_deref();
+    drawing.asked = only.map(ToOwned::to_owned);
     for entity in &file.entities {
         drawing.add(&file, *entity, &top, &mut n_drawn);
     }
-    let only = options.layer.as_deref();
     if let Some(only) = only {
         let layers = drawing.layers();
         if !layers.contains(only) {
@@ -66,16 +68,45 @@ pub fn read<'a>(bytes: &[u8], options: &ReadOptions) -> Result<Layer<'a>, Error>
             return Err(Error::Layer { why });
         }
     }
+    let (n_unseen, unseen) = std::mem::take(&mut drawing.unseen);
     let items = drawing.items(file.units, only);
     let tolerance = options.tolerance;
     let len = Some(items.len());
-    let features = (0..).zip(items).map(move |(index, item)| item.feature(index, tolerance));
-    Ok(Layer { len, units: file.units, ..Layer::new(features) })
+    let features = (0..).zip(items).map(move |(index, item)| {
+        // Curves are flattened where features are read.
+        Part::of_row(item.size(), move || item.feature(index, tolerance))
+    });
+    let warnings = drawing_warnings(n_unseen, &unseen);
+    Ok(Layer { len, warnings, units: file.units, ..Layer::of_parts(features) })
+}
+
+/// What to say of entities that nobody sees, and of the layers they are on.
+fn drawing_warnings(n: usize, layers: &BTreeSet<String>) -> Vec<String> {
+    if n == 0 {
+        return Vec::new();
+    }
+    let names: Vec<String> = layers.iter().map(|name| format!("`{name}`")).collect();
+    vec![format!(
+        "entities that are not seen, as they or their layers are off or frozen, are passed over: {n} on {}; \
+         --layer reads one of them",
+        names.join(", ")
+    )]
+}
+
+/// Whether what is on a layer is seen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Seen {
+    /// Not at all, nor is what blocks have on other layers.
+    Frozen,
+    /// Not itself.
+    Off,
 }
 
 /// The parts of a file that are used.
 struct File<'a> {
     units: Option<&'static str>,
+    /// Layers that are not seen, by their names in capitals.
+    unseen: HashMap<String, Seen>,
     blocks: HashMap<String, Block<'a>>,
     entities: Vec<Entity<'a>>,
 }
@@ -91,7 +122,12 @@ impl<'a> File<'a> {
             let why = "the file does not begin with a section, as DXF does".to_owned();
             return Err(Error::Syntax { line: 1, column: 1, why });
         }
-        let mut file = Self { units: None, blocks: HashMap::new(), entities: Vec::new() };
+        let mut file = Self {
+            units: None,
+            unseen: HashMap::new(),
+            blocks: HashMap::new(),
+            entities: Vec::new(),
+        };
         let mut has_entities = false;
         let mut rest = groups;
         while let Some(start) = rest.iter().position(|group| group.is(0, "SECTION")) {
@@ -102,6 +138,7 @@ impl<'a> File<'a> {
             let Some((name, content)) = section.split_first() else { continue };
             match name.text().as_ref() {
                 "HEADER" => file.header(content),
+                "TABLES" => file.tables(content),
                 "BLOCKS" => file.blocks(content),
                 "ENTITIES" => {
                     file.entities = entities(content);
@@ -119,6 +156,23 @@ impl<'a> File<'a> {
         let variable = groups.iter().position(|group| group.is(9, "$INSUNITS"));
         let number = variable.and_then(|k| groups.get(k + 1)).and_then(|g| g.whole().ok());
         self.units = UNITS.iter().find(|(n, _)| Some(*n) == number).map(|(_, name)| *name);
+    }
+
+    fn tables(&mut self, groups: &'a [Group<'a>]) {
+        const FROZEN: i64 = 1;
+        for entry in entities(groups).iter().filter(|entry| entry.name() == "LAYER") {
+            let fields = entry.fields();
+            let Some(name) = fields.find(2) else { continue };
+            // Colours of layers that are off are negative.
+            let seen = if fields.whole_or(70, 0).unwrap_or(0) & FROZEN != 0 {
+                Seen::Frozen
+            } else if fields.whole_or(62, 0).unwrap_or(0) < 0 {
+                Seen::Off
+            } else {
+                continue;
+            };
+            self.unseen.insert(name.text().to_uppercase(), seen);
+        }
     }
 
     fn blocks(&mut self, groups: &'a [Group<'a>]) {
@@ -222,6 +276,10 @@ struct Drawing {
     open: Vec<Line>,
     items: Vec<(usize, Item)>,
     n: usize,
+    /// The layer that is asked for, be it seen or not.
+    asked: Option<String>,
+    /// How many entities are not seen, and on which layers.
+    unseen: (usize, BTreeSet<String>),
 }
 
 /// What becomes a feature.
@@ -241,6 +299,11 @@ impl Drawing {
             return;
         }
         let source = Source::new(entity, place);
+        if self.is_unseen(file, entity, &source) {
+            self.unseen.0 += 1;
+            self.unseen.1.insert(source.layer);
+            return;
+        }
         let order = self.n;
         self.n += 1;
         if *n_drawn == MOST + 1 || place.depth > DEPTH {
@@ -283,6 +346,18 @@ impl Drawing {
             Ok(Drawn::Other) => self.items.push((order, Item::of(&source, None))),
             Err(error) => self.items.push((order, Item::of(&source, Some(Err(error))))),
         }
+    }
+
+    /// Whether nobody sees an entity, nor asks for its layer.
+    fn is_unseen(&self, file: &File, entity: Entity, source: &Source) -> bool {
+        if self.asked.as_deref() == Some(source.layer.as_str()) {
+            return false;
+        }
+        const INVISIBLE: i64 = 1;
+        let is_invisible = entity.fields().whole_or(60, 0).unwrap_or(0) == INVISIBLE;
+        let seen = file.unseen.get(&source.layer.to_uppercase());
+        let is_block = source.name == "INSERT";
+        is_invisible || seen.is_some_and(|seen| !is_block || *seen == Seen::Frozen)
     }
 
     fn insert(
@@ -472,6 +547,12 @@ impl Item {
     fn layer(&self) -> String {
         let layer = self.properties.first().map(|(_, value)| value.get()).unwrap_or_default();
         serde_json::from_str(layer).unwrap_or_default()
+    }
+
+    /// About as many bytes as it has as text.
+    fn size(&self) -> usize {
+        let polygons = self.polygons.iter().flatten().flatten();
+        polygons.flatten().map(Contour::size).sum()
     }
 
     fn feature(self, index: usize, tolerance: Option<f64>) -> Result<Feature, FeatureError> {

@@ -218,3 +218,53 @@ fn a_layer_that_is_not_there_is_refused() {
     let told = "there is nothing on a layer `c`; of layers there are `a`, `b`";
     assert_eq!(of("c"), Err(told.to_owned()));
 }
+
+#[test]
+fn splines_of_fit_points_are_read() {
+    // The closed one through the corners of a square of side 1: between two corners it bulges by
+    // 3/4 of a quarter, and by two thirds of that on the mean.
+    let square = "0=SPLINE 8=a 70=1 71=3 74=4 11=0 21=0 11=1 21=0 11=1 21=1 11=0 21=1";
+    // A half wave, up at the start and down at the end, closed by a line.
+    let wave = "0=SPLINE 8=b 70=0 71=3 74=2 12=0 22=5 13=0 23=-3 11=0 21=0 11=3 21=0 \
+                0=LINE 8=b 10=3 20=0 11=0 21=0";
+    let read = features(&format!("{square} {wave}"));
+    let read: Vec<Feature> = read.into_iter().map(Result::unwrap).collect();
+    // Control points lie a quarter outside: the area below such a curve is 0.25 * 3/5 on half of the chord.
+    near(area(&read[0]), 1.0 + 4.0 * 0.25 * 0.45);
+    near(area(&read[1]), 3.0 * 3.0 / 3.0 * 0.6);
+}
+
+#[test]
+fn what_nobody_sees_is_passed_over_and_told() {
+    let square = |layer: &str, more: &str| {
+        format!("0=LWPOLYLINE 8={layer} 70=1 10=0 20=0 10=1 20=0 10=1 20=1 {more}")
+    };
+    let entities = [
+        square("ON", ""),
+        square("off", ""),
+        square("FROZEN", ""),
+        square("ON", "60=1"),
+        "0=INSERT 8=OFF 2=B 10=0 20=0 0=INSERT 8=FROZEN 2=B 10=0 20=0".to_owned(),
+    ];
+    let block = format!("0=BLOCK 2=B 10=0 20=0 {} {} 0=ENDBLK", square("0", ""), square("ON", ""));
+    let pairs = format!(
+        "0=SECTION 2=TABLES 0=TABLE 2=LAYER 70=3 0=LAYER 2=ON 70=0 62=7 0=LAYER 2=OFF 70=0 62=-7 \
+         0=LAYER 2=FROZEN 70=1 62=7 0=ENDTAB 0=ENDSEC 0=SECTION 2=BLOCKS {block} 0=ENDSEC \
+         0=SECTION 2=ENTITIES {} 0=ENDSEC 0=EOF",
+        entities.join(" ")
+    );
+    let text: String =
+        pairs.split_whitespace().map(|pair| pair.replacen('=', "\n", 1) + "\n").collect();
+    let of = |layer: Option<&str>| {
+        let layer = layer.map(ToOwned::to_owned);
+        let options = ReadOptions { layer, ..ReadOptions::default() };
+        let layer = read(text.as_bytes(), &options).unwrap();
+        (layer.warnings.clone(), layer.map(Result::unwrap).count())
+    };
+    let (warnings, n) = of(None);
+    // The one that is on, and that of the block whose insertion is off.
+    assert_eq!(n, 2);
+    assert!(warnings[0].contains("passed over: 5 on `FROZEN`, `OFF`, `ON`, `off`"), "{warnings:?}");
+    assert_eq!(of(Some("off")).1, 1);
+    assert_eq!(of(Some("FROZEN")).1, 2);
+}

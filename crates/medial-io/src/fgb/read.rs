@@ -57,7 +57,7 @@ pub fn open(path: &Path) -> Result<Layer<'static>, Error> {
     source.seek(SeekFrom::Current(index)).map_err(failed)?;
     let len = usize::try_from(count).ok().filter(|&count| count > 0);
     let features = Features { source, described, index: 0, is_over: false };
-    Ok(Layer { crs, units: None, len, parts: Box::new(features) })
+    Ok(Layer { crs, len, ..Layer::of_parts(features) })
 }
 
 /// A flatbuffer behind its size, with it; `None` at the end.

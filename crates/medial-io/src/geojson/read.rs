@@ -86,7 +86,7 @@ fn of_its_own<'a>(text: String) -> Result<Layer<'a>, Error> {
         let text = Arc::clone(&text);
         Part::of_row(place.len(), move || feature(&text, &text[place], index))
     });
-    Ok(Layer { crs, units: None, len, parts: Box::new(parts) })
+    Ok(Layer { crs, len, ..Layer::of_parts(parts) })
 }
 
 /// Reads one feature or geometry a line; record separators [RFC 8142] and empty lines are

@@ -43,11 +43,12 @@ pub fn open(path: &Path, layer: Option<&str>) -> Result<Layer<'static>, Error> {
     let crs = reference(&database, table.srs).map_err(broken)?;
     let count =
         format!("SELECT count(*) FROM (SELECT 1 FROM {} LIMIT {COUNTED})", quoted(&table.name));
-    let count: i64 = database.query_row(&count, [], |row| row.get(0)).map_err(broken)?;
-    let len = usize::try_from(count).ok().filter(|&count| count < COUNTED);
+    // Where the file is damaged the rows before that can be read.
+    let count: Option<i64> = database.query_row(&count, [], |row| row.get(0)).ok();
+    let len = count.and_then(|count| usize::try_from(count).ok()).filter(|&count| count < COUNTED);
     let parts = read_apart(move |rows| read(&database, table, rows).map_err(|error| said(&error)))
         .map_err(|source| Error::Interrupted { source })?;
-    Ok(Layer { crs, units: None, len, parts: Box::new(parts) })
+    Ok(Layer { crs, len, ..Layer::of_parts(parts) })
 }
 
 /// What the database says of a failure.

@@ -1,6 +1,7 @@
-use super::geo::Geo;
+use super::geo::{self, Geo};
+use super::pages::Pages;
 use crate::apart::{Rows, read_apart};
-use crate::{Crs, Error, Feature, FeatureError, Json, Layer, Part, attribute, wkb};
+use crate::{Error, Feature, FeatureError, Json, Layer, Part, attribute, wkb};
 use medial::geom::Point;
 use parquet::basic::{LogicalType, TimeUnit};
 use parquet::data_type::Decimal;
@@ -9,8 +10,10 @@ use parquet::record::{Field, List, Row};
 use parquet::schema::types::Type;
 use serde_json::Value;
 use std::fs::File;
+use std::panic::AssertUnwindSafe;
 use std::path::Path;
 use std::sync::Arc;
+use std::sync::atomic::Ordering;
 
 /// What a column is to a feature.
 #[derive(Clone, Copy, PartialEq)]
@@ -49,7 +52,12 @@ pub fn open(path: &Path) -> Result<Layer<'static>, Error> {
     let wrong = |why: String| Error::File { why };
     let file = File::open(path).map_err(|source| Error::Interrupted { source })?;
     // The library trusts in what it reads.
-    let opened = std::panic::catch_unwind(|| SerializedFileReader::new(file));
+    let (file, are_pages) = Pages::new(file);
+    let file = AssertUnwindSafe(file);
+    let opened = std::panic::catch_unwind(|| {
+        let AssertUnwindSafe(file) = { file };
+        SerializedFileReader::new(file)
+    });
     let reader = opened
         .map_err(|_| wrong("it is no Parquet file that can be read".to_owned()))?
         .map_err(|error| wrong(format!("it is no Parquet file: {}", plain(&error))))?;
@@ -57,7 +65,7 @@ pub fn open(path: &Path) -> Result<Layer<'static>, Error> {
     let schema = metadata.schema();
     let pairs = metadata.key_value_metadata().map_or(&[][..], Vec::as_slice);
     let geo = pairs.iter().find(|pair| pair.key == "geo").and_then(|pair| pair.value.as_deref());
-    let mut crs = None;
+    let crs;
     let mut omitted = None;
     let (name, encoding) = match geo {
         Some(text) => {
@@ -91,6 +99,11 @@ pub fn open(path: &Path) -> Result<Layer<'static>, Error> {
             let field = typed.or_else(named).ok_or_else(|| {
                 wrong("it has no geometries: no metadata `geo`, no column `geometry`".to_owned())
             })?;
+            crs = match field.get_basic_info().logical_type_ref() {
+                Some(LogicalType::Geometry(found)) => geo::of_type(found.crs.as_deref(), pairs),
+                Some(LogicalType::Geography(found)) => geo::of_type(found.crs.as_deref(), pairs),
+                _ => None,
+            };
             (field.name().to_owned(), Encoding::Wkb)
         }
     };
@@ -98,9 +111,6 @@ pub fn open(path: &Path) -> Result<Layer<'static>, Error> {
         return Err(wrong(format!(
             "there is no column `{name}`, which should have the geometries"
         )));
-    }
-    if geo.is_none() {
-        crs = None::<Crs>;
     }
     let roles: Arc<[Role]> = schema
         .get_fields()
@@ -112,9 +122,10 @@ pub fn open(path: &Path) -> Result<Layer<'static>, Error> {
         })
         .collect();
     let len = usize::try_from(metadata.num_rows()).ok();
+    are_pages.store(true, Ordering::Relaxed);
     let parts = read_apart(move |rows| read(&reader, &roles, rows).map_err(|error| plain(&error)))
         .map_err(|source| Error::Interrupted { source })?;
-    Ok(Layer { crs, units: None, len, parts: Box::new(parts) })
+    Ok(Layer { crs, len, ..Layer::of_parts(parts) })
 }
 
 /// What the library says, without its own kind of error.
@@ -142,7 +153,7 @@ fn role(field: &Type) -> Role {
 
 /// Hands over the rows of a file.
 fn read(
-    reader: &SerializedFileReader<File>,
+    reader: &SerializedFileReader<Pages>,
     roles: &Arc<[Role]>,
     rows: &mut Rows,
 ) -> parquet::errors::Result<()> {

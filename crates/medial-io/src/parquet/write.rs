@@ -104,11 +104,11 @@ fn metadata(table: &Table<'_>, written: &mut Written) -> Value {
             let projjson = crs.projjson();
             if projjson.is_none() {
                 written.warnings.push(format!(
-                    "the reference system {crs} is left out, as its PROJJSON is not known, which \
+                    "the reference system {crs} is left out, as nothing tells its PROJJSON, which \
                      GeoParquet needs"
                 ));
             }
-            column["crs"] = projjson.map_or(Value::Null, of_text);
+            column["crs"] = projjson.as_deref().map_or(Value::Null, of_text);
         }
         None => column["crs"] = Value::Null,
     }

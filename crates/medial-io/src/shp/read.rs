@@ -41,7 +41,7 @@ pub fn open(path: &Path) -> Result<Layer<'static>, Error> {
     let crs = crs.map(|bytes| String::from_utf8_lossy(&bytes).trim().to_owned());
     let crs = crs.filter(|wkt| !wkt.is_empty()).map(|wkt| Crs::of_wkt(&wkt));
     let rows = Shapes { shapes, places, table, n_records: 0, index: 0, is_over: false };
-    Ok(Layer { crs, units: None, len, parts: Box::new(rows) })
+    Ok(Layer { crs, len, ..Layer::of_parts(rows) })
 }
 
 /// The file beside a `.shp` with another extension, in lower or upper case.

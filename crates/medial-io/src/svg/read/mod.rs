@@ -23,7 +23,7 @@ pub use text::Fonts;
 use crate::curves::{Affine, Contour, flatten};
 use crate::json::quoted;
 use crate::text::syntax_at;
-use crate::{Error, Feature, FeatureError, Json, Layer, Note, ReadOptions, gzip};
+use crate::{Error, Feature, FeatureError, Json, Layer, Note, Part, ReadOptions, gzip};
 use kurbo::{Cap, Join};
 use medial::domain::FillRule;
 use medial::geom::Point;
@@ -79,16 +79,29 @@ pub fn read<'a>(text: &str, options: &ReadOptions) -> Result<Layer<'a>, Error> {
         drawn: Vec::new(),
         n_visited: 0,
     };
-    let place =
-        Place { to_page: Affine::FLIP, view, layer: None, group: None, clipped: false, depth: 0 };
+    let place = Place {
+        to_page: Affine::FLIP,
+        view,
+        layer: None,
+        group: None,
+        clipped: false,
+        marked: false,
+        depth: 0,
+    };
     let style = Style::default().child(root, &walker.sheet);
     walker.children(root, &style, &place);
     let drawn = walker.drawn;
     let tolerance = options.tolerance;
     let len = Some(drawn.len());
-    let features = (0..).zip(drawn).map(move |(index, drawn)| drawn.feature(index, tolerance));
-    Ok(Layer { len, ..Layer::new(features) })
+    let features = (0..).zip(drawn).map(move |(index, drawn)| {
+        // Curves are flattened where features are read.
+        Part::of_row(drawn.size(), move || drawn.feature(index, tolerance))
+    });
+    Ok(Layer { len, ..Layer::of_parts(features) })
 }
+
+/// Properties for arrows and the like on the lines of shapes.
+const MARKERS: [&str; 4] = ["marker", "marker-start", "marker-mid", "marker-end"];
 
 /// Whether a drawing may have text, for which fonts are needed.
 #[must_use]
@@ -111,6 +124,11 @@ struct Drawn {
 }
 
 impl Drawn {
+    /// About as many bytes as it has as text.
+    fn size(&self) -> usize {
+        self.contours.iter().flatten().map(Contour::size).sum()
+    }
+
     fn feature(self, index: usize, tolerance: Option<f64>) -> Result<Feature, FeatureError> {
         let read = self.contours.and_then(|contours| {
             // Holes are found by their depth, or by how rings wind.
@@ -143,6 +161,8 @@ struct Place<'a> {
     layer: Option<&'a str>,
     group: Option<&'a str>,
     clipped: bool,
+    /// Whether the lines of the element have arrows or the like.
+    marked: bool,
     depth: usize,
 }
 
@@ -183,6 +203,8 @@ impl<'a, 'input> Walker<'a, 'input> {
         place.clipped |= ["clip-path", "mask"]
             .iter()
             .any(|name| style.get(name).is_some_and(|value| value != "none"));
+        place.marked =
+            MARKERS.iter().any(|name| style.get(name).is_some_and(|value| value != "none"));
         match self.transform(&style, place.view) {
             Ok(Some(transform)) => place.to_page = place.to_page.after(&transform),
             Ok(None) => {}
@@ -468,6 +490,12 @@ impl<'a, 'input> Walker<'a, 'input> {
             notes.push(Note {
                 code: "clip_ignored",
                 text: format!("a clip path or mask of the {name} is ignored"),
+            });
+        }
+        if part == "stroke" && place.marked {
+            notes.push(Note {
+                code: "marker_ignored",
+                text: format!("markers on the {name} are ignored"),
             });
         }
         self.drawn.push(Drawn {

@@ -255,3 +255,15 @@ fn a_picture_of_ours_reads_back() {
     let ring = &shape.expect("the domain is drawn").polygons[0][0];
     assert!(area(&vec![vec![ring.clone()]]) > 0.0, "counterclockwise as written: {ring:?}");
 }
+
+#[test]
+fn markers_are_told_once_for_each_line() {
+    let body = "<g marker-end='url(#arrow)'><path d='M0 0H9' stroke='red'/><rect width='1' height='1'/>\
+                <path d='M0 0V9' stroke='red' style='marker:none;marker-end:none'/></g>";
+    let told: Vec<usize> = features(body)
+        .into_iter()
+        .map(Result::unwrap)
+        .map(|f| f.notes.iter().filter(|note| note.code == "marker_ignored").count())
+        .collect();
+    assert_eq!(told, [1, 0, 0]);
+}

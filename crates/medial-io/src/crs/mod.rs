@@ -1,6 +1,13 @@
 //! Coordinate reference systems, as far as they can be told without a library of projections.
 
+mod esri;
+mod methods;
+mod node;
+mod projjson;
+mod wkt;
+
 use crate::Json;
+use node::Node;
 use serde::Deserialize;
 use serde_json::Value;
 use std::borrow::Cow;
@@ -70,8 +77,8 @@ impl Crs {
     pub fn of_wkt(wkt: &str) -> Self {
         let wkt = wkt.trim();
         let epsg = |code| ("EPSG".to_owned(), code);
-        let authority =
-            identifier(wkt).or_else(|| esri(&name_in(wkt)?).map(|code| epsg(code.to_string())));
+        let authority = identifier(wkt)
+            .or_else(|| esri::code(&name_in(wkt)?).map(|code| epsg(code.to_string())));
         Self { authority, wkt: Some(wkt.to_owned()), ..Self::default() }
     }
 
@@ -118,47 +125,68 @@ impl Crs {
         }
     }
 
-    /// Its well-known text, as it was read or as EPSG defines it (version 1).
+    /// Its well-known text: as it was read, as EPSG defines it (version 1), or as its PROJJSON says
+    /// (version 2).
     #[must_use]
     pub fn wkt(&self) -> Option<Cow<'_, str>> {
-        self.wkt.as_deref().map(Cow::Borrowed).or_else(|| self.defined())
+        self.wkt.as_deref().map(Cow::Borrowed).or_else(|| self.defined()).or_else(|| {
+            let projjson = serde_json::from_str(self.projjson.as_ref()?.get()).ok()?;
+            Some(wkt::second(&projjson)?.to_string().into())
+        })
     }
 
-    /// Its well-known text of version 1, which is the one that older formats know.
+    /// Its well-known text of version 1, which is the one that older formats know: as it was read, as EPSG
+    /// defines it, or as what was read says in other words.
     #[must_use]
     pub fn first_wkt(&self) -> Option<Cow<'_, str>> {
-        const SECOND: [&str; 8] = [
-            "PROJCRS",
-            "GEOGCRS",
-            "GEODCRS",
-            "COMPOUNDCRS",
-            "BOUNDCRS",
-            "ENGCRS",
-            "VERTCRS",
-            "DERIVEDPROJCRS",
-        ];
+        const FIRST: [&str; 6] = ["PROJCS", "GEOGCS", "GEOCCS", "COMPD_CS", "LOCAL_CS", "VERT_CS"];
         let word =
             |wkt: &str| wkt.split(['[', '(']).next().unwrap_or_default().trim().to_uppercase();
         match &self.wkt {
-            Some(wkt) if !SECOND.contains(&word(wkt).as_str()) => Some(wkt.as_str().into()),
-            _ => self.defined(),
+            Some(wkt) if FIRST.contains(&word(wkt).as_str()) => Some(wkt.as_str().into()),
+            // A definition may have the axes in another order than the input.
+            None if self.projjson.is_none() => self.defined(),
+            _ => {
+                let projjson = self.projjson().and_then(|text| serde_json::from_str(&text).ok());
+                let derived = projjson.and_then(|found| wkt::first(&found));
+                derived.map(|node| node.to_string().into()).or_else(|| self.defined())
+            }
         }
     }
 
-    /// The text by which EPSG defines it.
+    /// The text by which EPSG defines it, without the shifts to WGS 84 that are no part of that.
     fn defined(&self) -> Option<Cow<'_, str>> {
         let code = u16::try_from(self.epsg_code()?).ok()?;
-        crs_definitions::from_code(code).map(|found| found.wkt.into())
+        let text = crs_definitions::from_code(code)?.wkt;
+        let mut node = Node::read_all(text)?.into_iter().next()?;
+        if node.word == "BOUNDCRS" {
+            let source = node.get(&["SOURCECRS"])?.nodes().next().cloned();
+            node = source?;
+        }
+        node.remove("TOWGS84");
+        Some(node.to_string().into())
     }
 
-    /// Its PROJJSON, if it was read; that of EPSG:4326 is known besides.
+    /// Its PROJJSON: as it was read, or what follows from its well-known text, which its number at EPSG may
+    /// stand for. None if neither tells enough.
+    ///
+    /// ```
+    /// let crs = medial_io::Crs::epsg(27700);
+    /// assert!(crs.projjson().is_some_and(|found| found.contains("\"Transverse Mercator\"")));
+    /// ```
     #[must_use]
-    pub fn projjson(&self) -> Option<&str> {
-        match &self.projjson {
-            Some(projjson) => Some(projjson.get()),
-            None if self.epsg_code() == Some(4326) => Some(WGS_84),
-            None => None,
+    pub fn projjson(&self) -> Option<Cow<'_, str>> {
+        if let Some(projjson) = &self.projjson {
+            return Some(projjson.get().into());
         }
+        if self.epsg_code() == Some(4326) {
+            return Some(WGS_84.into());
+        }
+        let id = self.authority();
+        let of_text = |text: &str| projjson::of_text(text, id);
+        let found = self.wkt.as_deref().and_then(of_text);
+        let found = found.or_else(|| of_text(&self.defined()?))?;
+        Some(found.to_string().into())
     }
 
     /// Its `crs` member in GeoJSON: as it was read, or by its authority; none where nothing has to be
@@ -283,50 +311,6 @@ fn is_geographic_object(crs: &Value) -> bool {
     }
 }
 
-/// The code at EPSG of a name as ESRI writes it, of the most common ones.
-fn esri(name: &str) -> Option<u32> {
-    const KNOWN: [(&str, u32); 22] = [
-        ("GCS_WGS_1984", 4326),
-        ("GCS_North_American_1983", 4269),
-        ("GCS_North_American_1927", 4267),
-        ("GCS_ETRS_1989", 4258),
-        ("GCS_GDA_1994", 4283),
-        ("GCS_GDA2020", 7844),
-        ("GCS_NZGD_2000", 4167),
-        ("GCS_JGD_2011", 6668),
-        ("WGS_1984_Web_Mercator_Auxiliary_Sphere", 3857),
-        ("WGS_84_Pseudo_Mercator", 3857),
-        ("NZGD_2000_New_Zealand_Transverse_Mercator", 2193),
-        ("British_National_Grid", 27700),
-        ("TM65_Irish_Grid", 29902),
-        ("IRENET95_Irish_Transverse_Mercator", 2157),
-        ("RGF_1993_Lambert_93", 2154),
-        ("RD_New", 28992),
-        ("Amersfoort_RD_New", 28992),
-        ("Belge_Lambert_2008", 3812),
-        ("CH1903+_LV95", 2056),
-        ("S-JTSK_Krovak_East_North", 5514),
-        ("ETRS_1989_LAEA", 3035),
-        ("SWEREF99_TM", 3006),
-    ];
-    if let Some((_, code)) = KNOWN.iter().find(|(known, _)| *known == name) {
-        return Some(*code);
-    }
-    let zone = |start: &str| -> Option<(u32, char)> {
-        let zone = name.strip_prefix(start)?;
-        let half = zone.chars().next_back()?;
-        let number = zone.strip_suffix(half)?.parse().ok()?;
-        (1..=60).contains(&number).then_some((number, half))
-    };
-    match (zone("WGS_1984_UTM_Zone_"), zone("ETRS_1989_UTM_Zone_"), zone("NAD_1983_UTM_Zone_")) {
-        (Some((zone, 'N')), ..) => Some(32600 + zone),
-        (Some((zone, 'S')), ..) => Some(32700 + zone),
-        (_, Some((zone @ 28..=38, 'N')), _) => Some(25800 + zone),
-        (.., Some((zone @ 1..=23, 'N'))) => Some(26900 + zone),
-        _ => None,
-    }
-}
-
 /// EPSG:4326, as PROJ writes it.
 const WGS_84: &str = r#"{"$schema":"https://proj.org/schemas/v0.7/projjson.schema.json","type":"GeographicCRS","name":"WGS 84","datum_ensemble":{"name":"World Geodetic System 1984 ensemble","members":[{"name":"World Geodetic System 1984 (Transit)"},{"name":"World Geodetic System 1984 (G730)"},{"name":"World Geodetic System 1984 (G873)"},{"name":"World Geodetic System 1984 (G1150)"},{"name":"World Geodetic System 1984 (G1674)"},{"name":"World Geodetic System 1984 (G1762)"},{"name":"World Geodetic System 1984 (G2139)"}],"ellipsoid":{"name":"WGS 84","semi_major_axis":6378137,"inverse_flattening":298.257223563},"accuracy":"2.0","id":{"authority":"EPSG","code":6326}},"coordinate_system":{"subtype":"ellipsoidal","axis":[{"name":"Geodetic latitude","abbreviation":"Lat","direction":"north","unit":"degree"},{"name":"Geodetic longitude","abbreviation":"Lon","direction":"east","unit":"degree"}]},"scope":"Horizontal component of 3D system.","area":"World.","bbox":{"south_latitude":-90,"west_longitude":-180,"north_latitude":90,"east_longitude":180},"id":{"authority":"EPSG","code":4326}}"#;
 
@@ -366,6 +350,7 @@ mod tests {
         assert!(Crs::of_wkt(second).is_geographic());
         assert!(Crs::of_wkt(second).first_wkt().is_some_and(|wkt| wkt.starts_with("GEOGCS")));
         assert!(Crs::of_wkt("PROJCRS[\"mine\"]").first_wkt().is_none());
+        assert!(Crs::of_wkt("PROJCRS[\"mine\"]").projjson().is_none());
     }
 
     #[test]
@@ -407,5 +392,77 @@ mod tests {
         let member = Crs::epsg(4326).member().unwrap();
         assert!(member.get().contains("OGC:1.3:CRS84"));
         assert!(Crs::epsg(28992).member().unwrap().get().contains("EPSG::28992"));
+    }
+
+    /// What pyproj makes of the same texts is compared in `tests/foreign`.
+    #[test]
+    fn dialects_of_well_known_text_tell_the_same() {
+        let gdal = "PROJCS[\"x\",GEOGCS[\"g\",DATUM[\"WGS_1984\",SPHEROID[\"WGS 84\",6378137,298.257223563]],\
+            PRIMEM[\"Greenwich\",0],UNIT[\"degree\",0.0174532925199433]],\
+            PROJECTION[\"Polar_Stereographic\"],PARAMETER[\"latitude_of_origin\",-71],\
+            PARAMETER[\"central_meridian\",0],UNIT[\"metre\",1],\
+            AXIS[\"Easting\",NORTH],AXIS[\"Northing\",NORTH]]";
+        let esri = "PROJCS[\"x\",GEOGCS[\"g\",DATUM[\"D_WGS_1984\",SPHEROID[\"WGS 84\",6378137.0,298.257223563]],\
+            PRIMEM[\"Greenwich\",0.0],UNIT[\"Degree\",0.0174532925199433]],\
+            PROJECTION[\"Stereographic_South_Pole\"],PARAMETER[\"Central_Meridian\",0.0],\
+            PARAMETER[\"Standard_Parallel_1\",-71.0],UNIT[\"Meter\",1.0]]";
+        let of = |text: &str| -> Value {
+            serde_json::from_str(&Crs::of_wkt(text).projjson().unwrap()).unwrap()
+        };
+        let (gdal, esri) = (of(gdal), of(esri));
+        let method = &gdal["conversion"]["method"];
+        assert_eq!(method["name"], "Polar Stereographic (variant B)");
+        assert_eq!(esri["conversion"]["method"], *method);
+        assert_eq!(gdal["conversion"]["parameters"][0]["value"], -71);
+        assert_eq!(gdal["coordinate_system"], esri["coordinate_system"]);
+        let meridians = ["0", "1"].map(|k| {
+            let axis = &gdal["coordinate_system"]["axis"][k.parse::<usize>().unwrap()];
+            axis["meridian"]["longitude"].as_f64().unwrap()
+        });
+        assert_eq!(meridians, [90.0, 0.0]);
+        assert_eq!(gdal["base_crs"]["datum"]["name"], "World Geodetic System 1984");
+        assert_eq!(esri["base_crs"]["datum"]["name"], "World Geodetic System 1984");
+    }
+
+    #[test]
+    fn shifts_to_wgs_84_bind_a_system_without_a_number() {
+        let wkt = |id: &str| {
+            format!(
+                "GEOGCS[\"g\",DATUM[\"d\",SPHEROID[\"s\",6377397.155,299.15],TOWGS84[1,2,3,0,0,0,0]],\
+                 PRIMEM[\"Greenwich\",0],UNIT[\"degree\",0.0174532925199433]{id}]"
+            )
+        };
+        let of = |text: &str| -> Value {
+            serde_json::from_str(&Crs::of_wkt(text).projjson().unwrap()).unwrap()
+        };
+        let bound = of(&wkt(""));
+        assert_eq!(
+            (&bound["type"], &bound["source_crs"]["name"]),
+            (&"BoundCRS".into(), &"g".into())
+        );
+        assert_eq!(bound["transformation"]["parameters"].as_array().unwrap().len(), 3);
+        let known = of(&wkt(",AUTHORITY[\"EPSG\",\"4289\"]"));
+        assert_eq!((&known["type"], &known["id"]["code"]), (&"GeographicCRS".into(), &4289.into()));
+    }
+
+    #[test]
+    fn projjson_becomes_text_of_both_versions() {
+        let of_code = Crs::epsg(5070);
+        let own = of_code.projjson().unwrap().replace("5070", "990001").replace("EPSG", "mine");
+        let crs = Crs::of_projjson(json(&own));
+        let second = crs.wkt().unwrap();
+        assert!(second.starts_with("PROJCRS[\"NAD83 / Conus Albers\",BASEGEOGCRS["), "{second}");
+        assert!(second.contains("METHOD[\"Albers Equal Area\""), "{second}");
+        let first = crs.first_wkt().unwrap();
+        assert!(first.contains("PARAMETER[\"latitude_of_center\",23]"), "{first}");
+        let again = Crs::of_wkt(&second).projjson().unwrap().into_owned();
+        let value = |text: &str| -> Value { serde_json::from_str(text).unwrap() };
+        let (again, own) = (value(&again), value(&own));
+        assert_eq!(again["coordinate_system"], own["coordinate_system"]);
+        let numbers = |of: &Value| -> Vec<f64> {
+            let parameters = of["conversion"]["parameters"].as_array().unwrap();
+            parameters.iter().map(|found| found["value"].as_f64().unwrap()).collect()
+        };
+        assert_eq!(numbers(&again), numbers(&own));
     }
 }
