@@ -33,6 +33,7 @@ use crate::axis::{Engine, MedialAxis, Side};
 use crate::domain::Domain;
 use crate::raster::{Bits, Cracks, Features, Mask, PixelGraph, disk_cells};
 use medial_cells::medial_cells;
+use std::num::NonZeroUsize;
 
 /// The medial cells of a mask, with their distances.
 #[derive(Debug)]
@@ -93,6 +94,23 @@ impl<'m> Skeleton<'m> {
         let cells = mask.with_bits(cells);
         let remains = Remains { mask, features, cracks, cells };
         Ok(Self { remains, complete: residual.is_none() })
+    }
+
+    /// The same where the medial cells are known already: those given by column and row that belong to the
+    /// mask.
+    #[must_use]
+    pub fn of_cells(mask: &'m Mask, cells: impl IntoIterator<Item = [u32; 2]>) -> Self {
+        let aspect = mask.grid().aspect();
+        let mut features = Features::new(&mask.bits, aspect, NonZeroUsize::MIN);
+        let cracks = Cracks::new(&mask.bits, Some(&mut features));
+        let mut known = Bits::new(mask.grid().columns, mask.grid().rows);
+        for [x, y] in cells {
+            if mask.get(x, y) {
+                known.set(x as i32, y as i32);
+            }
+        }
+        let remains = Remains { mask, features, cracks, cells: mask.with_bits(known) };
+        Self { remains, complete: false }
     }
 
     /// The medial cells.
