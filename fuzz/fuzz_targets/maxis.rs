@@ -28,7 +28,9 @@ fn read(body: &[u8]) {
         }
         // What is read can be written, and read again.
         let bytes = maxis::write(None, &[Record { feature: 0, ..record }]);
-        if let Err(error) = maxis::records(&bytes).and_then(|mut read| read.next().expect("it was written")) {
+        if let Err(error) =
+            maxis::records(&bytes).and_then(|mut read| read.next().expect("it was written"))
+        {
             panic!("{error}");
         }
     }

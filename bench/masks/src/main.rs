@@ -85,6 +85,7 @@ fn group_4(mask: &Mask) -> Fallible<Vec<u8>> {
 /// All ways to compress a mask, with their names.
 fn ways() -> Vec<(String, MaskOptions)> {
     let usual = MaskOptions::default();
+    let exact = MaskOptions { radius_steps: 0, ..usual };
     let of = |method| MaskOptions { method, residual: None, ..usual };
     let mut ways = vec![
         ("crack".to_owned(), of(MaskMethod::Crack)),
@@ -96,7 +97,8 @@ fn ways() -> Vec<(String, MaskOptions)> {
             MaskOptions { residual: Some(chord), ..usual },
         ));
     }
-    for steps in [4, 2, 1] {
+    ways.push(("chain, chord=2, exact radii".to_owned(), exact));
+    for steps in [2, 1] {
         let options = MaskOptions { radius_steps: steps, ..usual };
         ways.push((format!("chain, chord=2, radii in 1/{steps}"), options));
     }

@@ -14,7 +14,7 @@ V = 0, keep their corners bit for bit: the exact axis follows from them.
 
 An image becomes cells, by one of these methods, unless --engine names an exact one:
   chain    the medial cells one after the other, with their distances; pruned by chord=2 if nothing else is
-           said; with --prune none the image comes back cell for cell
+           said, distances rounded down to quarters; with --prune none the image comes back cell for cell
   cover    few disks, taken by what they gain, that cover a share of the image (--coverage)
   squares  the same with squares
   crack    the outline, crack by crack: always without loss, and usually the smallest file

@@ -71,7 +71,7 @@ impl Default for MaskOptions {
         Self {
             method: MaskMethod::Chain,
             residual: engine::Options::default().residual,
-            radius_steps: 0,
+            radius_steps: 4,
             coverage: 1.0,
             max_error: None,
         }
@@ -195,11 +195,17 @@ impl CompressedMask {
 /// Halvings of the interval of thresholds in which the best one is looked for.
 ///
 /// Size only: the error is measured for whatever is kept.
-const HALVINGS: u32 = 7;
+const HALVINGS: u32 = 6;
 
-/// Highest threshold that is tried, as a share of what the error allows: no branch of an arc of that excess
-/// has a longer residual in practice.
+/// The thresholds between which it is looked for: the least one in cells, the highest one in errors that are
+/// allowed.
+///
+/// Size only. A branch that the error allows to take has no longer residual in practice.
+const LEAST: f64 = 0.25;
 const HIGHEST: f64 = 8.0;
+
+/// Steps of a cell that radii are rounded down to, the coarsest first, and none.
+const STEPS: [u32; 4] = [1, 2, 4, 0];
 
 /// The mask in few numbers.
 ///
@@ -248,33 +254,28 @@ pub fn compress_mask(mask: &Mask, options: &MaskOptions) -> Result<CompressedMas
     })
 }
 
-/// The chain with the highest threshold, and the coarsest radii, that is within an error.
+/// The chain with the coarsest radii, and the highest threshold for them, that is within an error.
 fn chain_within(mask: &Mask, max_error: f64) -> Result<(Vec<Ball>, Difference), CellError> {
     let cells = max_error / mask.grid().cell_size();
-    // Rounding moves the boundary by up to a step; of what is left most is the threshold's.
-    let radius_steps = match cells {
-        _ if cells < 1.0 => 0,
-        _ if cells < 2.0 => 2,
-        _ => 1,
-    };
-    let mut best = None;
-    let (mut low, mut high) = (0.0, HIGHEST * cells);
-    for _ in 0..HALVINGS {
-        let middle = 0.5 * (low + high);
-        let found = chain::of(mask, Some(middle), radius_steps)?;
-        if found.1.error <= max_error {
-            (low, best) = (middle, Some(found));
-        } else {
-            high = middle;
+    for radius_steps in STEPS {
+        let of = |residual| chain::of(mask, Some(residual), radius_steps);
+        let mut best = of(LEAST)?;
+        if best.1.error > max_error {
+            continue;
         }
-        if high <= 0.25 {
-            break;
+        let (mut low, mut high) = (LEAST, LEAST.max(HIGHEST * cells));
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (low + high);
+            let found = of(middle)?;
+            if found.1.error <= max_error {
+                (low, best) = (middle, found);
+            } else {
+                high = middle;
+            }
         }
+        return Ok(best);
     }
-    match best {
-        Some(best) => Ok(best),
-        None => chain::of(mask, None, 0),
-    }
+    chain::of(mask, None, 0)
 }
 
 #[cfg(test)]
