@@ -67,6 +67,11 @@ def raster():
     return {"bench": folder / "medial-bench", "rivals": folder / "rivals"}
 
 
+def masks():
+    """The program that compresses bitmaps."""
+    return cargo(BENCH, "-p", "medial-bench-masks") / "masks"
+
+
 def cpp(name, program):
     compiler = os.environ.get("CXX", "g++")
     need(shutil.which(compiler), "g++")

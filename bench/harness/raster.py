@@ -114,19 +114,21 @@ def quality(programs, python, folder, data):
 
 def inverses(programs, python, folder, data):
     """Yields the lines of the table of inversion."""
-    yield ["engine", "silhouettes", "IoU mean", "IoU least", "medial cells of the shape"]
-    yield ["---"] + ["--:"] * 4
+    yield ["engine", "silhouettes", "IoU mean", "IoU least", "distance, mean px", "distance, most px",
+           "points a cell of the shape", "medial cells found again"]
+    yield ["---"] + ["--:"] * 7
     files = sorted((data / "images" / "mpeg7").glob("*.png"))
     words = [python, BENCH / "raster_quality.py", "masks", folder, *files]
     masks = run(list(map(str, words)), LIMIT)[0].splitlines()
     found = {}
     for line in run([str(programs["bench"]), "inverse", *masks], 3600)[0].splitlines():
-        name, share, cells = line.split("\t")
-        found.setdefault(name, []).append((float(share), float(cells)))
+        name, share, distance, points, again = line.split("\t")
+        found.setdefault(name, []).append((float(share), float(distance), float(points), again and float(again)))
     for name, of in found.items():
-        shares, cells = zip(*of)
-        yield [name, str(len(of)), f"{sum(shares) / len(of):.4f}", f"{min(shares):.4f}",
-               f"{sum(cells) / len(of):.1%}"]
+        shares, distances, points, again = zip(*of)
+        mean = lambda values: sum(values) / len(of)
+        yield [name, str(len(of)), f"{mean(shares):.4f}", f"{min(shares):.4f}", f"{mean(distances):.2f}",
+               f"{max(distances):.2f}", f"{mean(points):.1%}", "" if "" in again else f"{mean(again):.1%}"]
 
 
 def row(kind, found):

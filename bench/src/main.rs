@@ -20,17 +20,17 @@ use cpu_time::ThreadTime;
 use medial::axis::{Engine, MedialAxis};
 use medial::domain::{Domain, DomainError, Options};
 use medial::engine::{
-    self, Burning, EngineError, RidgeOptions, RidgeSearch, Skeleton, both_sides, brushfire,
-    divide_and_conquer_counted, exterior, interior, raster_transform, ridge_following_of_mask,
+    self, EngineError, RidgeSearch, Skeleton, both_sides, divide_and_conquer_counted, exterior,
+    interior,
 };
 use medial::geom::Point;
 use medial::ops::{
     CenterlineOptions, Hierarchy, Measure, Outline, OutlinePiece, branches, centerlines,
     offset_margin, offsets, polygons_of, smoothed,
 };
-use medial::raster::{Grid, mask_of_disks};
+use medial::raster::Grid;
 use medial_bench::measure::{Error, Work, peak_bytes, report};
-use medial_bench::{bitmap, ridge, shapes, text};
+use medial_bench::{bitmap, inversion, ridge, shapes, text};
 
 fn main() -> Result<(), Error> {
     let args: Vec<String> = env::args().skip(1).collect();
@@ -180,32 +180,11 @@ fn raster(file: &str, band_rows: Option<u32>) -> Result<(), Error> {
 /// Prints, for each bitmap a line and for each way to its medial cells, the share of the cells that the disks have
 /// in common with the mask, and that of medial cells in the mask: what is lost on the way back.
 fn inverses(files: &[&str]) -> Result<(), Error> {
-    let options = engine::Options::default();
-    let all = engine::Options { residual: None, ..options };
     for file in files {
-        let mask = bitmap::read(file)?;
-        let mut axes = vec![
-            ("raster_transform, all".to_owned(), raster_transform(&mask, &all)?),
-            ("raster_transform".to_owned(), raster_transform(&mask, &options)?),
-            (
-                "ridge_following".to_owned(),
-                ridge_following_of_mask(&mask, &RidgeOptions::default(), &options)?.axis,
-            ),
-        ];
-        for &burning in Burning::ALL {
-            axes.push((format!("brushfire, {burning}"), brushfire(&mask, burning, &options)?));
-        }
-        for (name, axis) in axes {
-            let back = mask_of_disks(&axis, mask.grid())?;
-            let rows = 0..mask.grid().rows;
-            let count = |of: &dyn Fn(u8, u8) -> u8| -> f64 {
-                let row =
-                    |y| mask.row(y).iter().zip(back.row(y)).map(|(&a, &b)| of(a, b).count_ones());
-                rows.clone().flat_map(row).map(f64::from).sum()
-            };
-            let share = count(&|a, b| a & b) / count(&|a, b| a | b).max(1.0);
-            let cells = axis.keypoints().len() as f64 / (mask.count() as f64).max(1.0);
-            println!("{name}\t{share}\t{cells}");
+        for found in inversion::all(&bitmap::read(file)?)? {
+            let again = found.again.map_or_else(String::new, |again| again.to_string());
+            let inversion::Inverse { name, common, distance, points, .. } = found;
+            println!("{name}\t{common}\t{distance}\t{points}\t{again}");
         }
     }
     Ok(())

@@ -1,7 +1,7 @@
 use crate::failure::{Failure, plain};
 use crate::guard::guarded;
 use medial_io::axis_document::{self, AxisDocument};
-use medial_io::{Content, Error, Format, Layer, ReadOptions, svg};
+use medial_io::{Content, Error, Format, Layer, ReadOptions, maxis, svg};
 use std::cell::RefCell;
 use std::fs::{self, File};
 use std::io::{self, BufRead, BufReader, Cursor, Read as _};
@@ -72,6 +72,16 @@ impl Input {
         &self,
     ) -> Result<impl Iterator<Item = Result<AxisDocument, Error>> + Send + '_, Failure> {
         axis_document::of_bytes(&self.bytes).map_err(|error| self.wrong(error))
+    }
+
+    /// What a compressed file stores; `None` for other content.
+    pub fn compressed(&self) -> Result<Option<Vec<maxis::Record>>, Failure> {
+        if !matches!(Format::of_content(&self.bytes), Ok(Content::CompressedAxes)) {
+            return Ok(None);
+        }
+        let records = maxis::records(&self.bytes).map_err(|error| self.wrong(error))?;
+        let records = records.collect::<Result<_, _>>().map_err(|error| self.wrong(error))?;
+        Ok(Some(records))
     }
 
     /// The failure that the content is wrong.

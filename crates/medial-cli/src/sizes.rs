@@ -3,8 +3,9 @@
 use crate::args::Rows;
 use medial::geom::Point;
 use medial::ops::Compressed;
-use medial_io::Json;
+use medial::raster::Mask;
 use medial_io::maxis::{Record, Sizes, sizes};
+use medial_io::{Json, image};
 use serde::Serialize;
 use serde_json::Value;
 
@@ -14,7 +15,7 @@ pub struct Row {
     /// The feature; none for the row of all.
     feature: Option<usize>,
     id: Option<Json>,
-    /// `disks`, `corners` or `simplified`; of all how many features have disks.
+    /// `disks`, `corners`, `simplified`, or the method of a mask; of all how many features have disks.
     stored: Value,
     /// The largest error, in units of the input.
     error: f64,
@@ -25,9 +26,12 @@ pub struct Row {
     deflated_wkb: usize,
     ratio: f64,
     deflated_ratio: f64,
+    /// Of images: bytes as PNG, and the share of the cells that is not rebuilt.
+    png: Option<usize>,
+    xor: Option<f64>,
 }
 
-const COLUMNS: [&str; 11] = [
+const COLUMNS: [&str; 13] = [
     "feature",
     "id",
     "stored",
@@ -39,15 +43,23 @@ const COLUMNS: [&str; 11] = [
     "deflated_wkb",
     "ratio",
     "deflated_ratio",
+    "png",
+    "xor",
 ];
 
 impl Row {
-    /// The row of a feature with these polygons.
-    pub fn of(record: &Record, polygons: &[Vec<Vec<Point>>], sizes: Sizes) -> Self {
+    /// The row of a feature with these polygons, or this mask.
+    pub fn of(
+        record: &Record,
+        polygons: &[Vec<Vec<Point>>],
+        mask: Option<&Mask>,
+        sizes: Sizes,
+    ) -> Self {
         let (stored, disks) = match &record.shape {
             Compressed::Disks(graph) => ("disks", graph.disks().len()),
             Compressed::Corners(corners) if corners.error > 0.0 => ("simplified", 0),
             Compressed::Corners(_) => ("corners", 0),
+            Compressed::Mask(code) => (code.method().name(), code.balls().len()),
         };
         let closing = |ring: &[Point]| usize::from(ring.len() > 1 && ring.first() == ring.last());
         Self {
@@ -57,6 +69,13 @@ impl Row {
             error: record.shape.error(),
             corners: polygons.iter().flatten().map(|ring| ring.len() - closing(ring)).sum(),
             disks,
+            png: mask.map(|mask| image::write_png(mask).len()),
+            xor: match (&record.shape, mask) {
+                (Compressed::Mask(code), Some(mask)) => {
+                    Some(code.missing as f64 / mask.count() as f64)
+                }
+                _ => None,
+            },
             ..Self::empty(sizes)
         }
     }
@@ -74,6 +93,8 @@ impl Row {
             deflated_wkb: sizes.deflated_wkb,
             ratio: sizes.ratio(),
             deflated_ratio: sizes.deflated_ratio(),
+            png: None,
+            xor: None,
         }
     }
 
@@ -104,6 +125,8 @@ impl Row {
             self.deflated_wkb.to_string(),
             self.ratio.to_string(),
             self.deflated_ratio.to_string(),
+            self.png.map_or_else(String::new, |png| png.to_string()),
+            self.xor.map_or_else(String::new, |xor| xor.to_string()),
         ]
     }
 
@@ -117,13 +140,24 @@ impl Row {
             (Some(_), Some("disks")) => {
                 format!("{} disks for {} corners", self.disks, self.corners)
             }
+            (Some(_), Some(method @ ("chain" | "cover"))) => {
+                format!("a {method} of {} disks", self.disks)
+            }
+            (Some(_), Some("squares")) => format!("{} squares", self.disks),
             (Some(_), _) => format!("{} corners", self.corners),
             (None, _) => {
                 format!("{} features as disks, {} corners in all", self.stored, self.corners)
             }
         };
+        let image = match (self.png, self.xor) {
+            (Some(png), Some(xor)) => {
+                let times = png as f64 / self.maxis as f64;
+                format!("; PNG {png} ({times:.2} times), {:.3}% of the cells missing", 100.0 * xor)
+            }
+            _ => String::new(),
+        };
         format!(
-            "{name}: {what}, {} bytes; WKB {} ({:.2} times), deflated {} ({:.2} times); error {:e}\n",
+            "{name}: {what}, {} bytes; WKB {} ({:.2} times), deflated {} ({:.2} times); error {:e}{image}\n",
             self.maxis, self.wkb, self.ratio, self.deflated_wkb, self.deflated_ratio, self.error,
         )
     }
@@ -150,6 +184,8 @@ pub struct Totals {
     error: f64,
     corners: usize,
     disks: usize,
+    png: Option<usize>,
+    xor: Option<f64>,
 }
 
 impl Totals {
@@ -158,6 +194,8 @@ impl Totals {
         self.error = self.error.max(row.error);
         self.corners += row.corners;
         self.disks += row.disks;
+        // An image is one feature.
+        (self.png, self.xor) = (row.png, row.xor);
         self.records.push(record);
         self.wkb.extend_from_slice(wkb);
     }
@@ -173,6 +211,8 @@ impl Totals {
             error: self.error,
             corners: self.corners,
             disks: self.disks,
+            png: self.png,
+            xor: self.xor,
             ..Row::empty(sizes(crs, &self.records, &self.wkb))
         }
     }

@@ -2,6 +2,7 @@ mod axis;
 mod carve;
 mod centerline;
 mod clearance;
+mod compress;
 mod engine;
 mod offset;
 mod pruning;
@@ -11,9 +12,10 @@ pub use axis::{AxisArgs, Line};
 pub use carve::{CarveArgs, Units};
 pub use centerline::{CenterlineArgs, Extend, Purpose};
 pub use clearance::ClearanceArgs;
+pub use compress::CompressArgs;
 pub use engine::{ChosenEngine, engine_for};
 pub use offset::OffsetArgs;
-pub use pruning::Pruning;
+pub use pruning::{Prune, Pruning};
 pub use walls::WallsArgs;
 
 use crate::failure::{Failure, Status};
@@ -79,7 +81,7 @@ pub enum Command {
     Check(CheckArgs),
     /// Run every engine on the same polygons
     Compare(CompareArgs),
-    /// Write polygons as few disks of their axes, within an error, or without any
+    /// Write polygons or images as few disks of their axes, within an error, or without any
     Compress(CompressArgs),
 }
 
@@ -190,13 +192,15 @@ From an axis document, or from polygons by way of their axis. Methods:
              cross themselves, what they wind around
   disks      the union of the disks at those points
 `error` is the distance between the new boundary and the old one, where that is known.
+Compressed images come back as they were compressed, as their outline or as an image (png).
 
-Formats: geojson, geojsonl, csv, wkt, wkb, rings, dxf.
+Formats: geojson, geojsonl, csv, wkt, wkb, rings, dxf; png for compressed images.
 
 Examples:
   medial axis fixtures/river.geojson --to json | medial reconstruct - --from json --to wkt
   medial reconstruct fixtures/river.geojson --method tangents --step 1 -o river.wkt
   medial reconstruct fixtures/river.geojson --max-error 2 -o pruned.geojson
+  medial compress fixtures/images/horse.png --invert -o horse.maxis && medial reconstruct horse.maxis -o horse.png
 
 Exit status: 0 all done; 1 no usable result; 2 wrong usage; 3 some features were left out.";
 
@@ -378,50 +382,6 @@ pub struct CompareArgs {
     pub cell: Option<f64>,
     #[command(flatten)]
     pub region: Region,
-    #[command(flatten)]
-    pub flattening: Flattening,
-    #[command(flatten)]
-    pub common: Common,
-}
-
-const COMPRESS_HELP: &str = "\
-Each feature becomes disks on a grid, with what is linear between them; the boundary of their union and
-that of the polygons are within V of one another. Features whose corners take fewer bytes, and all with
-V = 0, keep their corners bit for bit: the exact axis follows from them.
-
-With -o the standard output tells the bytes of each feature, as if it were alone in a file, and of all:
-as maxis, as WKB, and as WKB deflated.
-
-Examples:
-  medial compress fixtures/river.geojson --max-error 1 -o river.maxis --sizes text
-  medial compress fixtures/river.geojson --max-error 0 -o river.maxis
-  medial compress fixtures/lake.rings --max-error 5 --simplify -o lake.maxis
-  medial compress - --max-error 0.01 < fixtures/shapes/l_with_unit_arms.wkt > l.maxis
-
-Exit status: 0 all done; 1 no usable result; 2 wrong usage; 3 some features were left out.";
-
-/// Arguments of `medial compress`.
-#[derive(Debug, Args)]
-#[command(after_help = COMPRESS_HELP)]
-pub struct CompressArgs {
-    /// Polygons in any format that --from knows; `-` for standard input
-    pub input: PathBuf,
-    /// File to write (maxis); by default, and for `-`, standard output
-    #[arg(short, long, value_name = "FILE")]
-    pub output: Option<PathBuf>,
-    /// How far the boundary may move, in units of the input; 0 keeps every corner
-    #[arg(long, value_name = "V", value_parser = not_negative, allow_negative_numbers = true)]
-    pub max_error: f64,
-    /// Keep simplified corners, within the same error, where they take fewer bytes than disks: the axis
-    /// is then that of the simplified polygon
-    #[arg(long)]
-    pub simplify: bool,
-    /// Who computes the axis: path_tracing, divide_and_conquer
-    #[arg(long, value_name = "NAME", default_value = "path_tracing", value_parser = engine)]
-    pub engine: Engine,
-    /// Form of the sizes, a row for each feature and one for all: json (lines), csv, or text for people
-    #[arg(long, value_name = "FORM", default_value = "json")]
-    pub sizes: Rows,
     #[command(flatten)]
     pub flattening: Flattening,
     #[command(flatten)]

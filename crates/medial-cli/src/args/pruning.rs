@@ -81,7 +81,7 @@ pub enum Prune {
     Below(Measure, f64),
 }
 
-fn prune(word: &str) -> Result<Prune, String> {
+pub(super) fn prune(word: &str) -> Result<Prune, String> {
     if word == "none" {
         return Ok(Prune::Nothing);
     }

@@ -7,9 +7,11 @@ use crate::output::Output;
 use crate::report::Entry;
 use crate::sizes::{Row, Totals, csv_header};
 use crate::timings::{Stages, timed};
+use medial::axis::Engine;
 use medial::domain::Domain;
 use medial::engine::{self, interior};
-use medial::ops::{CompressError, Compressed, Corners, compress};
+use medial::ops::{CompressError, Compressed, Corners, compress, compress_mask};
+use medial::raster::Mask;
 use medial_io::maxis::{self, Record};
 use medial_io::{Crs, Feature, Format, wkb};
 use std::io::IsTerminal as _;
@@ -22,6 +24,8 @@ pub fn run(args: &'static CompressArgs) -> Result<Status, Failure> {
     let file = args.output.as_deref().filter(|path| path.as_os_str() != "-");
     check_output(file)?;
     let input = run.open_with(&args.input, Documents::AsPolygons)?;
+    let as_cells = args.as_cells(matches!(input.format, Format::Png | Format::Tiff));
+    args.check(as_cells)?;
     let layer = timed(&mut run.stages.read, || input.layer())?;
     let crs = layer.crs.as_ref().and_then(Crs::member);
     let output = Output::create(file)?;
@@ -39,12 +43,16 @@ pub fn run(args: &'static CompressArgs) -> Result<Status, Failure> {
         at_once,
         move |feature, domain, stages, bytes| {
             let options = stages.options(threads);
-            let shape = shape(feature, domain, args, &options, stages)?;
+            let shape = match feature.mask.as_deref().filter(|_| as_cells) {
+                Some(mask) => cells(mask, args, stages)?,
+                None => shape(feature, domain, args, &options, stages)?,
+            };
             let record = Record { feature: feature.index, id: feature.id.clone(), shape };
             let wkb = wkb::write_polygons(&feature.polygons);
             timed(&mut stages.write, || {
                 let sizes = maxis::sizes(None, std::slice::from_ref(&record), &wkb);
-                let row = Row::of(&record, &feature.polygons, sizes);
+                let mask = feature.mask.as_deref();
+                let row = Row::of(&record, &feature.polygons, mask, sizes);
                 bytes.extend(row.written(args.sizes));
                 Ok((record, row, wkb))
             })
@@ -72,6 +80,14 @@ pub fn run(args: &'static CompressArgs) -> Result<Status, Failure> {
     Ok(status)
 }
 
+/// What stands for the cells of an image.
+fn cells(mask: &Mask, args: &CompressArgs, stages: &mut Stages) -> Result<Compressed, Entry> {
+    let options = args.mask_options(mask.grid().cell_size());
+    timed(&mut stages.operations, || compress_mask(mask, &options))
+        .map(Compressed::Mask)
+        .map_err(|error| Entry::refused("too_large", error.to_string()))
+}
+
 /// What stands for a feature: disks, if an error is allowed and they take less, else its corners.
 fn shape(
     feature: &Feature,
@@ -80,25 +96,27 @@ fn shape(
     options: &engine::Options<'_>,
     stages: &mut Stages,
 ) -> Result<Compressed, Entry> {
+    let max_error = args.max_error.unwrap_or(0.0);
+    let engine = args.engine.unwrap_or(Engine::PathTracing);
     // Rings that cross or overlap bound nothing without being repaired.
     let is_rebuilt = domain.report().is_rebuilt();
     let corners = Corners {
-        engine: args.engine,
+        engine,
         regroup: args.common.regroup && !is_rebuilt,
         error: 0.0,
         polygons: if is_rebuilt { domain.polygons() } else { feature.polygons.clone() },
     };
-    if args.max_error == 0.0 {
+    if max_error == 0.0 {
         return Ok(Compressed::Corners(corners));
     }
-    let simplified = if args.simplify { corners.simplified(args.max_error) } else { None };
+    let simplified = if args.simplify { corners.simplified(max_error) } else { None };
     let mut shape = Compressed::Corners(corners);
     if let Some(simplified) = simplified {
         shape = maxis::smaller(Compressed::Corners(simplified), shape);
     }
-    let axis = timed(&mut stages.engine, || interior(domain, args.engine, options))
+    let axis = timed(&mut stages.engine, || interior(domain, engine, options))
         .map_err(|error| Entry::unfinished(&error))?;
-    match timed(&mut stages.operations, || compress(domain, &axis, args.max_error)) {
+    match timed(&mut stages.operations, || compress(domain, &axis, max_error)) {
         Ok(graph) => Ok(maxis::smaller(Compressed::Disks(graph), shape)),
         Err(CompressError::TooFine { .. }) => Ok(shape),
         Err(error) => Err(Entry::internal(&error)),

@@ -5,19 +5,22 @@ use super::sink::boundary;
 use crate::args::{Method, ReconstructArgs};
 use crate::failure::{Failure, Status};
 use crate::input::{Input, Opened};
+use crate::output::Output;
 use crate::parallel::kept;
 use crate::progress::Progress;
 use crate::report::Entry;
 use crate::timings::timed;
-use medial::axis::{Accuracy, MedialAxis, Side};
+use medial::axis::{Accuracy, Engine, MedialAxis, Side};
 use medial::engine::interior;
 use medial::geom::Point;
 use medial::ops::{
-    Outline, boundary_distance, disks, polygons_of, signed_area, tangent_polygons, union_of_disks,
-    without_crossings,
+    Compressed, CompressedMask, Outline, boundary_distance, disks, polygons_of, signed_area,
+    tangent_polygons, union_of_disks, without_crossings,
 };
+use medial::raster::outline;
 use medial_io::record::{self, Record, Shape, Value};
-use medial_io::{Feature, default_tolerance};
+use medial_io::{Feature, Format, Json, default_tolerance, image, maxis};
+use std::io::IsTerminal as _;
 
 /// Points along the axis of a feature, at most.
 const MOST_POINTS: f64 = 1e6;
@@ -40,7 +43,20 @@ pub fn run(args: &'static ReconstructArgs) -> Result<Status, Failure> {
         engine: Some(args.engine),
     };
     let input = match run.opened(&args.input)? {
-        Opened::Axes(input) => return of_documents(args, &plan, &input),
+        Opened::Axes(input) => {
+            let masks = input.compressed()?.map(masks_of).unwrap_or_default();
+            let is_png = plan.asked()? == Format::Png;
+            return match &masks[..] {
+                [] if is_png => {
+                    let why =
+                        "polygons are no PNG: that is for compressed images; name another --to";
+                    Err(Failure::Usage(why.to_owned()))
+                }
+                [] => of_documents(args, &plan, &input),
+                [(_, _, mask)] if is_png => as_image(args, &input, mask),
+                masks => of_masks(args, &plan, &input, masks),
+            };
+        }
         Opened::Polygons(polygons) => kept(polygons),
     };
     plan.run(run, input, move |feature, domain, stages, options| {
@@ -56,6 +72,58 @@ pub fn run(args: &'static ReconstructArgs) -> Result<Status, Failure> {
             Ok(vec![rebuilt(args, &axis, Some(&original))?])
         })
     })
+}
+
+/// A mask with the number and the identifier of its feature.
+type Numbered = (usize, Option<Json>, CompressedMask);
+
+/// The masks among what a compressed file stores.
+fn masks_of(records: Vec<maxis::Record>) -> Vec<Numbered> {
+    let mask = |record: maxis::Record| match record.shape {
+        Compressed::Mask(mask) => Some((record.feature, record.id, mask)),
+        _ => None,
+    };
+    records.into_iter().filter_map(mask).collect()
+}
+
+/// Writes the cells of a compressed image as an image.
+fn as_image(
+    args: &ReconstructArgs,
+    input: &Input,
+    mask: &CompressedMask,
+) -> Result<Status, Failure> {
+    let file = args.target.output.as_deref().filter(|path| path.as_os_str() != "-");
+    if file.is_none() && std::io::stdout().is_terminal() {
+        return Err(Failure::Usage("a terminal shows no png; name a file with -o".to_owned()));
+    }
+    let mask = mask.mask().map_err(|error| input.wrong(error))?;
+    Output::create(file)?.whole(&image::write_png(&mask))?;
+    Ok(Status::Done)
+}
+
+/// Writes the outlines of compressed images.
+fn of_masks(
+    args: &ReconstructArgs,
+    plan: &Plan,
+    input: &Input,
+    masks: &[Numbered],
+) -> Result<Status, Failure> {
+    let format = plan.format()?;
+    let mut sink = plan.sink(format, None, None, args.common.quiet)?;
+    for (feature, id, code) in masks {
+        let mask = code.mask().map_err(|error| input.wrong(error))?;
+        let [width, height] = mask.grid().cell;
+        let area = mask.count() as f64 * (width * height).abs();
+        let values = vec![Value::from(code.method().name()), code.error.into(), area.into()];
+        let record = Record { values, shape: Shape::Polygons(outline(&mask)) };
+        let source = Feature { index: *feature, id: id.clone(), ..Feature::default() };
+        let mut bytes = Vec::new();
+        let engine = Engine::RasterTransform;
+        record::write(&mut bytes, format, &source, engine, COLUMNS, &[record]);
+        sink.write(&bytes)?;
+    }
+    sink.finish(&[])?;
+    Ok(Status::Done)
 }
 
 /// Axes that were computed before.

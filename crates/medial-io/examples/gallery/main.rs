@@ -9,6 +9,7 @@ mod bounds;
 mod branches;
 mod carving;
 mod compress;
+mod compress_cells;
 mod lake;
 mod lee;
 mod lee_1_2;
@@ -27,6 +28,7 @@ mod sheet;
 mod smooth;
 mod style;
 mod voronoi;
+mod vsc_14;
 
 mod fig_01;
 mod fig_02;
@@ -63,7 +65,7 @@ const LESSONS: [Lesson; 12] = [
 ];
 
 /// Pictures besides, each in a file of its name.
-const PICTURES: [(&str, Lesson); 17] = [
+const PICTURES: [(&str, Lesson); 19] = [
     ("lee-1-2", lee_1_2::LESSON),
     ("voronoi", voronoi::LESSON),
     ("both-sides", both_sides::LESSON),
@@ -78,6 +80,8 @@ const PICTURES: [(&str, Lesson); 17] = [
     ("branches", branches::LESSON),
     ("smooth", smooth::LESSON),
     ("compress", compress::LESSON),
+    ("compress-cells", compress_cells::LESSON),
+    ("vsc-14", vsc_14::LESSON),
     ("offsets", offsets::LESSON),
     ("profile", profile::LESSON),
     ("carving", carving::LESSON),

@@ -4,6 +4,7 @@ use crate::style::{self, HALO, INK, MUTED};
 use medial::axis::{Curve, KeypointKind, MedialAxis, Site};
 use medial::domain::Domain;
 use medial::geom::Point;
+use medial::raster::Mask;
 use std::fmt::Write as _;
 
 /// Space around and between panels, in pixels.
@@ -216,6 +217,29 @@ impl Panel<'_> {
                 let _ = write!(data, "M{}Z", pairs.join("L"));
             }
         }
+        self.sheet.element("path", &format!("d=\"{data}\""), style);
+    }
+
+    /// The cells of a mask, each run of a row as a rectangle.
+    pub fn cells(&mut self, mask: &Mask, style: &str) {
+        let mut data = String::new();
+        for y in 0..mask.grid().rows {
+            let cells: Vec<u32> = mask.cells(y).collect();
+            for run in cells.chunk_by(|a, b| a + 1 == *b) {
+                let (first, last) = (run[0], run[run.len() - 1] + 1);
+                let [a, b] =
+                    [(first, y), (last, y + 1)].map(|(x, y)| self.map(mask.grid().corner(x, y)));
+                let _ =
+                    write!(data, "M{} {}H{}V{}H{}Z", px(a.x), px(a.y), px(b.x), px(b.y), px(a.x));
+            }
+        }
+        self.sheet.element("path", &format!("d=\"{data}\""), style);
+    }
+
+    /// A rectangle between two corners.
+    pub fn rectangle(&mut self, low: Point, high: Point, style: &str) {
+        let (a, b) = (self.map(low), self.map(high));
+        let data = format!("M{} {}H{}V{}H{}Z", px(a.x), px(a.y), px(b.x), px(b.y), px(a.x));
         self.sheet.element("path", &format!("d=\"{data}\""), style);
     }
 

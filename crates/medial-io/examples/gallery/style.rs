@@ -87,3 +87,9 @@ pub const SECOND_LOST: &str = "fill=\"none\" stroke=\"#d84315\" stroke-opacity=\
                                stroke-width=\"1.3\" stroke-dasharray=\"7 4\"";
 /// What lies on the other side of a list.
 pub const BEHIND: &str = "fill=\"none\" stroke=\"#607d8b\" stroke-width=\"1\"";
+/// Pixels of a shape.
+pub const CELL: &str = "fill=\"#cfd8dc\"";
+/// Medial ones.
+pub const MEDIAL: &str = "fill=\"#8e24aa\"";
+/// Those that are lost.
+pub const LOST: &str = "fill=\"#ef6c00\"";

@@ -1,4 +1,4 @@
-//! Masks from images: PNG and TIFF, with the place that GeoTIFF gives them.
+//! Masks from images: PNG and TIFF, with the place that GeoTIFF gives them; and masks as PNG.
 //!
 //! # Contract
 //! An image gives one feature, which carries the [mask](crate::Feature::mask) and its outline as polygons.
@@ -15,6 +15,9 @@
 
 mod png;
 mod tiff;
+mod write;
+
+pub use write::write_png;
 
 use crate::{Crs, Error, Feature, Format, Layer, ReadOptions};
 use medial::geom::Point;

@@ -1,5 +1,5 @@
 //! The compressed axis: all features of a layer in one file, each as disks within an error, or as its
-//! corners bit for bit.
+//! corners bit for bit; masks as cells.
 //!
 //! `docs/formats.md` describes every byte. A head of twelve bytes with version and checksum is followed
 //! by a deflated body. Numbers are written as differences from what a reader expects, sorted into four
@@ -22,6 +22,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod cells;
 mod corners;
 mod cursor;
 mod numbers;
@@ -57,6 +58,9 @@ const BINARY: u8 = 2;
 const BITS: u8 = 3;
 const DOUBLES: u8 = 4;
 
+/// The kind of a feature that is a mask.
+const MASK: u8 = 5;
+
 /// A column of the body.
 #[derive(Clone, Copy)]
 enum Column {
@@ -76,7 +80,7 @@ pub struct Record {
     pub feature: usize,
     /// Its identifier, if it has one.
     pub id: Option<Json>,
-    /// Its disks or corners.
+    /// Its disks, corners or cells.
     pub shape: Compressed,
 }
 

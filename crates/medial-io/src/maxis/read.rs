@@ -1,8 +1,8 @@
 use super::cursor::{Cursor, Fault};
 use super::walk::Walk;
 use super::{
-    Anchor, COLUMNS, Column, DEFLATED, DISKS, HEAD, MAGIC, MOST_TIMES, PLAIN, Record, corners,
-    origin,
+    Anchor, COLUMNS, Column, DEFLATED, DISKS, HEAD, MAGIC, MASK, MOST_TIMES, PLAIN, Record, cells,
+    corners, origin,
 };
 use crate::axis_document::AxisDocument;
 use crate::{Error, Json};
@@ -125,6 +125,7 @@ impl Records {
         *feature = number as usize;
         let id = self.body.text()?;
         let shape = match self.body.byte(Column::Plan)? {
+            MASK => Compressed::Mask(cells::read(&mut self.body)?),
             DISKS => Compressed::Disks(disks(&mut self.body, &mut self.anchor)?),
             kind => Compressed::Corners(corners::read(&mut self.body, kind, &mut self.anchor)?),
         };
@@ -178,6 +179,10 @@ impl Body {
     pub fn double(&mut self, column: Column) -> Result<f64, Fault> {
         let bytes = self.cursors[column as usize].bytes(&self.bytes, 8)?;
         Ok(bytes.first_chunk().copied().map_or(0.0, f64::from_le_bytes))
+    }
+
+    pub fn bytes(&mut self, column: Column, n: usize) -> Result<&[u8], Fault> {
+        self.cursors[column as usize].bytes(&self.bytes, n)
     }
 
     /// A number of things that take a byte of a column each, or more.

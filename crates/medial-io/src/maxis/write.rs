@@ -1,7 +1,8 @@
 use super::numbers::{push, push_signed};
 use super::walk::Walk;
 use super::{
-    Anchor, COLUMNS, Column, DEFLATED, DISKS, MAGIC, MOST_TIMES, PLAIN, Record, corners, origin,
+    Anchor, COLUMNS, Column, DEFLATED, DISKS, MAGIC, MOST_TIMES, PLAIN, Record, cells, corners,
+    origin,
 };
 use crate::Json;
 use medial::axis::Engine;
@@ -39,6 +40,10 @@ pub(super) struct Columns {
 }
 
 impl Columns {
+    pub fn new() -> Self {
+        Self { columns: [const { Vec::new() }; COLUMNS] }
+    }
+
     pub fn of(&mut self, column: Column) -> &mut Vec<u8> {
         &mut self.columns[column as usize]
     }
@@ -52,7 +57,7 @@ impl Columns {
 }
 
 fn body(crs: Option<&Json>, records: &[Record]) -> Vec<u8> {
-    let mut columns = Columns { columns: [const { Vec::new() }; COLUMNS] };
+    let mut columns = Columns::new();
     columns.text(crs);
     push(columns.of(Column::Plan), records.len() as u64);
     let mut next = 0;
@@ -64,6 +69,7 @@ fn body(crs: Option<&Json>, records: &[Record]) -> Vec<u8> {
         match &record.shape {
             Compressed::Disks(graph) => disks(&mut columns, graph, &mut anchor),
             Compressed::Corners(shape) => corners::write(&mut columns, shape, &mut anchor),
+            Compressed::Mask(mask) => cells::write(&mut columns, mask),
         }
     }
     let mut body = Vec::new();

@@ -151,20 +151,8 @@ impl Remains<'_> {
 /// The nearest cells outside of those of a mask, in bands as high as the options say.
 pub(super) fn features_of<'m>(mask: &'m Mask, options: &Options<'_>) -> Features<'m> {
     let grid = mask.grid();
-    let height = options.band_rows.unwrap_or_else(|| band_rows(grid.columns, grid.rows));
+    let height = options.band_rows.unwrap_or_else(|| Features::usual_height(&mask.bits));
     Features::new(&mask.bits, grid.aspect(), options.threads, height)
-}
-
-/// As many rows of a mask as are kept at a time where nothing else is said.
-fn band_rows(columns: u32, rows: u32) -> u32 {
-    /// Masks of no more cells are kept whole: 256 MB.
-    const WHOLE: u64 = 1 << 26;
-    /// Cells of a band of larger ones: as few as cost little time.
-    const CELLS: u64 = 1 << 24;
-    if u64::from(columns) * u64::from(rows) <= WHOLE {
-        return rows;
-    }
-    (CELLS / u64::from(columns)).max(64) as u32
 }
 
 /// The cells of a domain, of the size that the options say: those whose centres lie in it.

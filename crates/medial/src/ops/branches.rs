@@ -289,8 +289,7 @@ impl<'a> Branches<'a> {
                 continue;
             }
             self.end_piece(&mut open);
-            let boundary =
-                [0, 1].map(|side| banks[side].length_up_to(&sites[side], disks[1].0));
+            let boundary = [0, 1].map(|side| banks[side].length_up_to(&sites[side], disks[1].0));
             let (extent, pieces) = (open.sum.extent(), pieces as u32);
             self.records.push(BranchRecord { passed, pieces, is_closed, extent, boundary });
             return;

@@ -504,8 +504,7 @@ impl<'a> Hierarchy<'a> {
                 _ => ((distance2.sqrt() - radius) / radius).max(0.0),
             };
             let known = fars[place].1;
-            let mut is_enough =
-                known != NONE && value(self.distance2(known, centre)) >= threshold;
+            let mut is_enough = known != NONE && value(self.distance2(known, centre)) >= threshold;
             let mut far = fars[place];
             if !is_enough {
                 far = self.farthest_behind(step, centre, known);

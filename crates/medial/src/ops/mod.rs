@@ -40,7 +40,8 @@ pub use centerline::{
 };
 pub use clearance::{Neck, Plateau, largest_disks, necks};
 pub use compress::{
-    CompressError, Compressed, Corners, DiskGraph, GridDisk, RebuildError, Run, compress,
+    Ball, BallShape, CellCode, CellError, CompressError, Compressed, CompressedMask, Corners,
+    DiskGraph, GridDisk, MaskMethod, MaskOptions, RebuildError, Run, compress, compress_mask,
 };
 pub use distance::boundary_distance;
 #[cfg(feature = "petgraph")]

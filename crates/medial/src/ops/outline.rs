@@ -353,11 +353,12 @@ impl<'a> Turns<'a> {
         let mut places = vec![EMPTY; axis.n_places()];
         let mut darts = Vec::with_capacity(2 * axis.paths().len());
         let mut disordered: Option<u32> = None;
-        let mut leave = |dart: u32, keypoint: u32, right: u32| {
-            match axis.place_of(keypoint, right).map(|place| &mut places[place]) {
-                Some(place) if *place == EMPTY => *place = dart,
-                _ => disordered = Some(disordered.unwrap_or(keypoint).min(keypoint)),
-            }
+        let mut leave = |dart: u32, keypoint: u32, right: u32| match axis
+            .place_of(keypoint, right)
+            .map(|place| &mut places[place])
+        {
+            Some(place) if *place == EMPTY => *place = dart,
+            _ => disordered = Some(disordered.unwrap_or(keypoint).min(keypoint)),
         };
         for (k, path) in (0..).zip(axis.paths()) {
             leave(2 * k, path.from, path.right);

@@ -95,6 +95,16 @@ impl<'b> Features<'b> {
         Self { bits, aspect, threads, height, carries, held }
     }
 
+    /// As many rows as are kept at a time where nothing else is said.
+    pub fn usual_height(bits: &Bits) -> u32 {
+        /// Masks of no more cells are kept whole: 256 MB.
+        const WHOLE: u64 = 1 << 26;
+        /// Cells of a band of larger ones: as few as cost little time.
+        const CELLS: u64 = 1 << 24;
+        let (columns, rows) = (u64::from(bits.columns()), bits.rows());
+        if columns * u64::from(rows) <= WHOLE { rows } else { (CELLS / columns).max(64) as u32 }
+    }
+
     /// The rows of each band.
     pub fn bands(&self) -> impl Iterator<Item = Range<u32>> + use<> {
         let (rows, height) = (self.bits.rows(), self.height);

@@ -6,6 +6,7 @@
 //! Whatever lies outside of the array is outside of the shape.
 
 mod bits;
+mod crack_code;
 #[cfg(test)]
 mod dice;
 mod digitise;
@@ -19,6 +20,7 @@ mod pixel_graph;
 mod topology;
 
 pub(crate) use bits::{Bits, SIMPLE, WINDOW_RING, can_go, filled_ring, n_runs};
+pub use crack_code::{CrackChain, CrackError, CrackWalk, Turn, crack_chains, mask_of_cracks};
 pub use digitise::{
     DigitiseError, boundary_cells, default_cell, digitise, grid_around, line_cells,
 };

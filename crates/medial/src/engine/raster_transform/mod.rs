@@ -106,6 +106,22 @@ impl<'m> Skeleton<'m> {
         Ok(Self { remains, complete: residual.is_none() })
     }
 
+    /// The same where the medial cells are known already: those given by column and row that belong to the
+    /// mask.
+    #[must_use]
+    pub fn of_cells(mask: &'m Mask, cells: impl IntoIterator<Item = [u32; 2]>) -> Self {
+        let features = features_of(mask, &Options::default());
+        let cracks = Cracks::new(&mask.bits);
+        let mut known = Bits::new(mask.grid().columns, mask.grid().rows);
+        for [x, y] in cells {
+            if mask.get(x, y) {
+                known.set(x as i32, y as i32);
+            }
+        }
+        let remains = Remains { mask, features, cracks, cells: mask.with_bits(known) };
+        Self { remains, complete: false }
+    }
+
     /// The medial cells.
     #[must_use]
     pub fn cells(&self) -> &Mask {

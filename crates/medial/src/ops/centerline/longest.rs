@@ -54,7 +54,13 @@ fn around_cycles(graph: &Graph, component: &[u32], ends: &[u32], lone: Option<u3
         let better = |best: u32, end: u32| match of(end).total_cmp(&of(best)) {
             Ordering::Less => best,
             Ordering::Greater => end,
-            Ordering::Equal => if first(&end) < first(&best) { end } else { best },
+            Ordering::Equal => {
+                if first(&end) < first(&best) {
+                    end
+                } else {
+                    best
+                }
+            }
         };
         let end = ends.iter().copied().reduce(better).unwrap_or(distances.start);
         (end, of(end))

@@ -1,4 +1,4 @@
-//! Few disks that stand for a shape, within an error that is promised.
+//! Few disks that stand for a shape, within an error that is promised. For masks see `cells`.
 //!
 //! # Contract
 //! The shape of a [`DiskGraph`] is the union of its disks and of all disks between two that are linked,
@@ -48,12 +48,16 @@
 //! slits outside, and small holes, could be covered by disks that are a little too large, and no bound
 //! for the boundary would hold.
 
+mod cells;
 mod chains;
 mod disk_graph;
 mod fit;
 mod rebuild;
 mod simplify;
 
+pub use cells::{
+    Ball, BallShape, CellCode, CellError, CompressedMask, MaskMethod, MaskOptions, compress_mask,
+};
 pub use disk_graph::{DiskGraph, GridDisk, Run};
 pub use rebuild::{Compressed, Corners, RebuildError};
 
@@ -90,6 +94,9 @@ pub enum CompressError {
     /// The axis cannot be pruned.
     #[error(transparent)]
     Hierarchy(#[from] HierarchyError),
+    /// Cells are too many.
+    #[error(transparent)]
+    Cells(#[from] CellError),
     /// The outside has no bound that could be kept.
     #[error("the axis is one of the outside; only that of the inside can be compressed")]
     Exterior,

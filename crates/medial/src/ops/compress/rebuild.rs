@@ -1,7 +1,7 @@
 //! An axis from what was kept of it.
 
 use super::super::groups::Groups;
-use super::DiskGraph;
+use super::{CellError, CompressedMask, DiskGraph};
 use crate::axis::{Accuracy, Engine, KeypointKind, MedialAxis, Path, Side, Site};
 use crate::domain::{Domain, DomainError, Options};
 use crate::engine::{self, EngineError};
@@ -28,6 +28,8 @@ pub enum Compressed {
     Disks(DiskGraph),
     /// The polygons themselves.
     Corners(Corners),
+    /// Cells of a mask.
+    Mask(CompressedMask),
 }
 
 /// Why corners have no axis.
@@ -40,6 +42,9 @@ pub enum RebuildError {
     /// There are too many disks to be numbered.
     #[error("there are more disks than an axis can have")]
     TooLarge,
+    /// The cells are no mask.
+    #[error(transparent)]
+    Cells(#[from] CellError),
     /// The engine gave up.
     #[error(transparent)]
     Engine(#[from] EngineError),
@@ -53,10 +58,12 @@ impl Compressed {
         match self {
             Self::Disks(graph) => graph.error(),
             Self::Corners(corners) => corners.error,
+            Self::Mask(mask) => mask.error,
         }
     }
 
-    /// The axis: see [`DiskGraph::axis`]; from corners it is computed once more and exact.
+    /// The axis: see [`DiskGraph::axis`]; from corners it is computed once more and exact;
+    /// for masks see [`CompressedMask::axis`].
     ///
     /// # Errors
     /// If corners bound no domain, or there are too many of them, or too many disks: nothing that was
@@ -64,6 +71,7 @@ impl Compressed {
     pub fn axis(&self) -> Result<MedialAxis, RebuildError> {
         match self {
             Self::Disks(graph) => graph.axis().ok_or(RebuildError::TooLarge),
+            Self::Mask(mask) => mask.axis(),
             Self::Corners(corners) => {
                 let Corners { engine, regroup, ref polygons, .. } = *corners;
                 let options = Options { regroup, ..Options::default() };
