@@ -21,10 +21,12 @@
 //! and its circle is the half-plane beyond such an edge; so the hull is exact, and all faces are triangles, which
 //! makes the splices of [GS85] one operation.
 
+mod constrain;
 mod insert;
 mod quad_edge;
 mod sites;
 
+pub use constrain::Blocked;
 pub use quad_edge::EdgeId;
 pub use sites::INFINITY;
 
@@ -55,7 +57,7 @@ pub struct Delaunay {
     vertex_of: Vec<u32>,
     /// The first point of each vertex.
     point_of: Vec<u32>,
-    /// An edge out of each vertex, not to infinity.
+    /// An edge out of each vertex.
     out: Vec<EdgeId>,
     /// An edge of each face, those with the vertex at infinity last.
     faces: Vec<EdgeId>,
@@ -301,6 +303,28 @@ impl Delaunay {
             INFINITY => 1.0,
             apex => self.sites.opening(apex, self.origin(edge), self.target(edge)),
         }
+    }
+
+    /// Whether an edge belongs to the one-step crust [GS01]: some circle through its ends holds neither a vertex nor
+    /// a Voronoi vertex at one of its sides, exactly. Otherwise the Voronoi edge across it is in the anti-crust.
+    ///
+    /// That is so if both triangles see it under no more than a right angle together: their centres then lie on
+    /// different sides, at distances whose product is at least the square of half its length.
+    ///
+    /// ```
+    /// use medial::geom::{Delaunay, Point};
+    /// // Of two rows of six points far apart, the edges along the rows and between their ends.
+    /// let points: Vec<Point> = (0..12).map(|k| Point::new(f64::from(k / 2), f64::from(3 * (k % 2)))).collect();
+    /// let triangles = Delaunay::new(&points).ok_or("all on one line")?;
+    /// let crust = triangles.edges().filter(|&edge| triangles.is_crust(edge));
+    /// assert_eq!(crust.count(), 12);
+    /// # Ok::<(), &str>(())
+    /// ```
+    #[must_use]
+    pub fn is_crust(&self, edge: EdgeId) -> bool {
+        self.opening(edge) >= 0.0
+            && self.opening(sym(edge)) >= 0.0
+            && self.opening_of_both(edge) >= 0.0
     }
 
     /// The sign of the cosine of the sum of the angles under which both triangles beside an edge see it, exactly;
