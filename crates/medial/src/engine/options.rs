@@ -32,6 +32,9 @@ pub struct Options<'a> {
     /// The size of cells, in units of the input, for engines that put domains into cells; by default
     /// [`default_cell`](crate::raster::default_cell).
     pub cell: Option<f64>,
+    /// The largest distance between samples of the boundary, in units of the input, for engines that sample it; by
+    /// default [`default_cell`](crate::raster::default_cell) for domains and half the side of a cell for masks.
+    pub spacing: Option<f64>,
     /// The chord residual, in cells, above which [`raster_transform`](super::raster_transform) takes cells
     /// for medial; without one, as many are as it takes for their disks to be the mask again.
     pub residual: Option<f64>,
@@ -49,6 +52,7 @@ impl Default for Options<'_> {
             deadline: None,
             alone_below: 10_000,
             cell: None,
+            spacing: None,
             residual: Some(DEFAULT_RESIDUAL),
         }
     }

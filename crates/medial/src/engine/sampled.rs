@@ -90,16 +90,20 @@ impl Boundary for OutlineBoundary<'_> {
     }
 
     fn record(&self, element: u32) -> axis::Site {
-        let edge = &self.cracks.edges[element as usize];
-        let contour = &self.cracks.contours[edge.contour as usize];
-        let grid = self.mask.grid();
-        let [from, to] = [edge.from, edge.to].map(|[column, row]| grid.corner(column, row));
-        // The shape is to the left as long as rows go up when columns go to the right.
-        let (a, b) = if grid.is_mirrored() { (to, from) } else { (from, to) };
-        let index = element - contour.first;
-        let site = axis::Site::edge(a, b);
-        axis::Site { polygon: contour.polygon, ring: contour.ring, index, ..site }
+        outline_record(self.cracks, self.mask.grid(), element)
     }
+}
+
+/// An edge of an outline as an axis lists it.
+pub(super) fn outline_record(cracks: &Cracks, grid: &Grid, element: u32) -> axis::Site {
+    let edge = &cracks.edges[element as usize];
+    let contour = &cracks.contours[edge.contour as usize];
+    let [from, to] = [edge.from, edge.to].map(|[column, row]| grid.corner(column, row));
+    // The shape is to the left as long as rows go up when columns go to the right.
+    let (a, b) = if grid.is_mirrored() { (to, from) } else { (from, to) };
+    let index = element - contour.first;
+    let site = axis::Site::edge(a, b);
+    axis::Site { polygon: contour.polygon, ring: contour.ring, index, ..site }
 }
 
 /// What an engine has left of the cells of a mask, with their distances.

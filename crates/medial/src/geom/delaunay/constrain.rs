@@ -7,11 +7,11 @@ use super::{Delaunay, INFINITY};
 
 /// Why two vertices cannot be joined.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Blocked {
-    /// A vertex lies between them.
-    Vertex(u32),
-    /// An edge that is kept crosses the way, from this vertex to that one.
-    Edge(u32, u32),
+pub struct Blocked {
+    /// The two vertices.
+    pub pair: [u32; 2],
+    /// Both ends of an edge that is kept and crosses the way; twice a vertex that lies on it.
+    pub by: [u32; 2],
 }
 
 impl Delaunay {
@@ -111,6 +111,7 @@ impl Delaunay {
     /// The edges that cross the way between two vertices, in their order.
     fn crossed(&self, from: u32, to: u32) -> Result<VecDeque<EdgeId>, Blocked> {
         let side = |vertex: u32| self.sites.orient(from, to, vertex);
+        let pair = [from, to];
         let mut crossed = VecDeque::new();
         let mut edge = None;
         for spoke in self.edges_out_of(from) {
@@ -120,16 +121,16 @@ impl Delaunay {
             }
             let at = side(right);
             if at == 0.0 && self.sites.opening(from, right, to) > 0.0 {
-                return Err(Blocked::Vertex(right));
+                return Err(Blocked { pair, by: [right; 2] });
             }
             if left != INFINITY && at < 0.0 && side(left) > 0.0 {
                 edge = Some(self.next_around_face(spoke));
             }
         }
-        let mut edge = edge.ok_or(Blocked::Vertex(from))?;
+        let mut edge = edge.ok_or(Blocked { pair, by: [from; 2] })?;
         loop {
             if self.is_kept(edge) {
-                return Err(Blocked::Edge(self.origin(edge), self.target(edge)));
+                return Err(Blocked { pair, by: [self.origin(edge), self.target(edge)] });
             }
             crossed.push_back(edge);
             let next = self.next_around_face(sym(edge));
@@ -139,7 +140,7 @@ impl Delaunay {
             }
             let at = side(apex);
             if at == 0.0 {
-                return Err(Blocked::Vertex(apex));
+                return Err(Blocked { pair, by: [apex; 2] });
             }
             edge = if at > 0.0 { next } else { self.next_around_face(next) };
         }
@@ -213,12 +214,16 @@ mod tests {
         let points = points.map(|(x, y)| Point::new(x, y));
         let mut triangles = Delaunay::new(&points).unwrap();
         let [a, b, middle, top, bottom] = [0, 1, 2, 3, 4].map(|k| triangles.vertex_of(k));
-        assert_eq!(triangles.clone().constrain([(a, b)]), Err(Blocked::Vertex(middle)));
-        assert_eq!(triangles.constrain([(bottom, top)]), Err(Blocked::Vertex(middle)));
+        let blocked = |pair: [u32; 2]| Err(Blocked { pair, by: [middle; 2] });
+        assert_eq!(triangles.clone().constrain([(a, b)]), blocked([a, b]));
+        assert_eq!(triangles.constrain([(bottom, top)]), blocked([bottom, top]));
         let square =
             [(0.0, 0.0), (4.0, 0.0), (4.0, 4.0), (0.0, 4.0)].map(|(x, y)| Point::new(x, y));
         let mut triangles = Delaunay::new(&square).unwrap();
         let [a, b, c, d] = [0, 1, 2, 3].map(|k| triangles.vertex_of(k));
-        assert!(matches!(triangles.constrain([(a, c), (b, d)]), Err(Blocked::Edge(..))));
+        let blocked = triangles.constrain([(a, c), (b, d)]).unwrap_err();
+        let mut ends = [blocked.pair, blocked.by].concat();
+        ends.sort_unstable();
+        assert_eq!(ends, [0, 1, 2, 3]);
     }
 }

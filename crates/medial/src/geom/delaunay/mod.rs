@@ -49,7 +49,7 @@ use sites::Sites;
 /// assert!((0..4).all(|face| triangles.circle(face).1 == 1.0));
 /// # Ok::<(), &str>(())
 /// ```
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Delaunay {
     sites: Sites,
     edges: QuadEdges,

@@ -69,12 +69,6 @@ impl QuadEdges {
         rot(self.next(inverse_rot(edge)))
     }
 
-    /// `Lprev`: the edge before along the face to the left.
-    #[inline(always)]
-    pub fn left_previous(&self, edge: EdgeId) -> EdgeId {
-        sym(self.next(edge))
-    }
-
     #[inline(always)]
     pub fn origin(&self, edge: EdgeId) -> u32 {
         self.quads[edge as usize >> 2].origin[edge as usize & 3]
@@ -158,10 +152,9 @@ mod tests {
     fn a_flip_joins_the_other_two_corners() {
         let (mut edges, a) = two();
         assert_eq!((face(&edges, a), face(&edges, sym(a))), ([0, 1, 2], [1, 0, 3]));
-        assert_eq!(edges.next(a), sym(edges.left_previous(a)));
+        // `Onext` is the opposite of `Lprev`.
+        assert_eq!(sym(edges.next(a)), edges.left_next(edges.left_next(a)));
         edges.flip(a);
         assert_eq!((face(&edges, a), face(&edges, sym(a))), ([3, 2, 0], [2, 3, 1]));
-        let next = edges.left_next(a);
-        assert_eq!(edges.left_previous(next), a);
     }
 }

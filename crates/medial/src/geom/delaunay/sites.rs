@@ -10,7 +10,7 @@ use crate::geom::{Point, Rect, orient2d};
 pub const INFINITY: u32 = u32::MAX;
 
 /// Points, in the order in which they are inserted.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct Sites {
     /// Relative to `origin`, in units of `unit`, without rounding.
     local: Vec<Point>,
@@ -22,9 +22,10 @@ pub(super) struct Sites {
 }
 
 /// How what doubles leave open is decided.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 enum Arithmetic {
     /// Coordinates are whole numbers below 2^29.
+    #[default]
     Lattice,
     /// Expansions, which neither overflow nor underflow.
     Doubles,
