@@ -94,6 +94,14 @@ impl Boundary for OutlineBoundary<'_> {
     }
 }
 
+/// An element of the outside of a domain as an axis lists it.
+pub(super) fn outside_record(outside: &Domain, site: Site) -> axis::Site {
+    let mut record = site_record(outside, site);
+    // Edges have the interior of the polygons to their left, whatever the side.
+    std::mem::swap(&mut record.a, &mut record.b);
+    record
+}
+
 /// An edge of an outline as an axis lists it.
 pub(super) fn outline_record(cracks: &Cracks, grid: &Grid, element: u32) -> axis::Site {
     let edge = &cracks.edges[element as usize];
@@ -239,12 +247,10 @@ impl Boundary for DomainBoundary<'_> {
     }
 
     fn record(&self, element: u32) -> axis::Site {
-        let mut record = site_record(self.domain, Site(element));
-        if self.side == Side::Exterior {
-            // Edges have the interior of the polygons to their left, whatever the side.
-            std::mem::swap(&mut record.a, &mut record.b);
+        match self.side {
+            Side::Interior => site_record(self.domain, Site(element)),
+            Side::Exterior => outside_record(self.domain, Site(element)),
         }
-        record
     }
 }
 

@@ -24,11 +24,11 @@ pub enum DualKind {
 /// An edge of the dual graph.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct DualEdge {
-    /// Nodes: groups of triangles, and, after these, vertices shared by more than two boundary edges.
+    /// Nodes: groups of triangles, after these vertices shared by more than two boundary edges, and infinity.
     pub from: u32,
     pub to: u32,
-    /// The edge between the two groups, with the first one to its left; for a vertex the boundary edge out of it,
-    /// with the second one to its left.
+    /// The edge between the two groups, or at infinity, with the first one to its left; for a vertex the boundary edge
+    /// out of it, with the second one to its left.
     pub across: EdgeId,
 }
 
@@ -47,6 +47,8 @@ pub(super) struct Dual {
     pub shared: Vec<(u32, Range<u32>)>,
     spokes: Vec<EdgeId>,
     pub edges: Vec<DualEdge>,
+    /// Whether edges go to infinity, which is the last node then.
+    pub is_unbounded: bool,
 }
 
 impl Dual {
@@ -71,10 +73,16 @@ impl Dual {
             shared: Vec::new(),
             spokes: Vec::new(),
             edges: Vec::with_capacity(samples.points.len()),
+            is_unbounded: false,
         };
         dual.group(triangles);
         dual.join(triangles);
         dual.link(triangles, samples);
+        let infinity = (dual.groups.len() + dual.shared.len()) as u32;
+        for edge in dual.edges.iter_mut().filter(|edge| edge.to == NONE) {
+            edge.to = infinity;
+            dual.is_unbounded = true;
+        }
         dual
     }
 
@@ -84,12 +92,13 @@ impl Dual {
         for wall in 0..self.walls.len() {
             open.push(self.walls[wall]);
             while let Some(first) = open.pop() {
-                if self.group_of[triangles.left(first) as usize] != NONE {
+                let face = triangles.left(first);
+                if face >= triangles.n_faces() || self.group_of[face as usize] != NONE {
                     continue;
                 }
                 let group = self.groups.len() as u32;
                 self.groups.push(first);
-                self.group_of[triangles.left(first) as usize] = group;
+                self.group_of[face as usize] = group;
                 members.push(first);
                 while let Some(edge) = members.pop() {
                     let next = triangles.next_around_face(edge);
@@ -114,14 +123,16 @@ impl Dual {
         }
     }
 
-    /// Rule 5: an edge between two nodes across each edge inside.
+    /// Rule 5: an edge between two nodes across each edge inside, and to infinity across those of the hull.
     fn join(&mut self, triangles: &Delaunay) {
-        for edge in triangles.edges() {
-            let from = self.group_on_left(triangles, edge);
-            let to = self.group_on_left(triangles, triangles.reversed(edge));
-            if from != to && from != NONE && to != NONE && !triangles.is_kept(edge) {
-                self.edges.push(DualEdge { from, to, across: edge });
+        for edge in triangles.edges().filter(|&edge| !triangles.is_kept(edge)) {
+            let back = triangles.reversed(edge);
+            let [from, to] = [edge, back].map(|edge| self.group_on_left(triangles, edge));
+            if from == to {
+                continue;
             }
+            let (from, to, across) = if from == NONE { (to, from, back) } else { (from, to, edge) };
+            self.edges.push(DualEdge { from, to, across });
         }
     }
 
@@ -155,7 +166,7 @@ impl Dual {
 
     /// The node between a boundary edge and the other one of the same corner; where samples are too few for there to
     /// be only one, that in the middle.
-    fn group_in_corner(&self, triangles: &Delaunay, spoke: EdgeId) -> u32 {
+    pub fn group_in_corner(&self, triangles: &Delaunay, spoke: EdgeId) -> u32 {
         let mut groups = vec![self.group_on_left(triangles, spoke)];
         let mut edge = triangles.next_around_origin(spoke);
         while self.boundary_at(triangles.reversed(edge)) == NONE {
@@ -186,15 +197,20 @@ impl Dual {
 
     /// How many nodes there are.
     pub fn n_nodes(&self) -> usize {
-        self.groups.len() + self.shared.len()
+        self.groups.len() + self.shared.len() + usize::from(self.is_unbounded)
+    }
+
+    /// Whether a vertex is one of more than two boundary edges.
+    #[inline]
+    pub fn is_shared(&self, vertex: u32) -> bool {
+        let known = || self.shared.binary_search_by_key(&vertex, |&(vertex, _)| vertex);
+        !self.shared.is_empty() && known().is_ok()
     }
 
     /// The sample at the start of an edge inside, or of a boundary edge.
     pub fn sample_at(&self, triangles: &Delaunay, edge: EdgeId) -> u32 {
         let vertex = triangles.origin(edge);
-        if self.shared.is_empty()
-            || self.shared.binary_search_by_key(&vertex, |&(vertex, _)| vertex).is_err()
-        {
+        if !self.is_shared(vertex) {
             return triangles.point_of(vertex);
         }
         // Clockwise up to the boundary edge that starts in this corner.
@@ -275,7 +291,8 @@ pub(super) fn disks(triangles: &Delaunay, dual: &Dual) -> Vec<(Point, f64)> {
         beyond.clear();
         open.push(dual.group_on_left(triangles, wall));
         while let Some(group) = open.pop() {
-            if beyond.contains(&group) || height(disks[group as usize].0) > 0.0 {
+            let is_seen = !beyond.is_empty() && height(disks[group as usize].0) > 0.0;
+            if is_seen || beyond.contains(&group) {
                 continue;
             }
             dual.outline(triangles, group, &mut outline);
@@ -296,5 +313,13 @@ pub(super) fn disks(triangles: &Delaunay, dual: &Dual) -> Vec<(Point, f64)> {
     moved.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.1.total_cmp(&b.1.1)));
     moved.dedup_by_key(|(group, _)| *group);
     moved.into_iter().for_each(|(group, disk)| disks[group as usize] = disk);
+    for (disk, &edge) in disks.iter_mut().zip(&dual.groups) {
+        // Flat but for rounding; inside, so that its disk is as small.
+        if !dual.is_unbounded && !(disk.0.norm() + disk.1).is_finite() {
+            let [a, b] = [triangles.origin(edge), triangles.target(edge)];
+            let ends = [a, b].map(|vertex| triangles.point(vertex));
+            *disk = ((ends[0] + ends[1]) * 0.5, 0.5 * (ends[1] - ends[0]).norm());
+        }
+    }
     disks
 }

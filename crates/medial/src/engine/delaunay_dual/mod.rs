@@ -17,7 +17,8 @@
 //!    to the triangles between two of these, or to their circle; an edge between nodes on both sides of an inner edge.
 //! 4. Nodes move from the middles of their triangles to the centres of their circles, so edges of the dual graph
 //!    become Voronoi edges; the elements that their two samples lie on govern them.
-//! 5. Leaves go, if that is asked for, by the chord residual [OK95], or those of one triangle [SDK09, §VII].
+//! 5. Branches into corners of a domain go on to these from the centre of the last circle.
+//! 6. Leaves go, if that is asked for, by the chord residual [OK95], or those of one triangle [SDK09, §VII].
 //!
 //! # Departures
 //! [SDK09] finds the boundary by the crust, which it has no other way to know. Here boundary edges are known and kept,
@@ -35,12 +36,13 @@ mod residuals;
 mod samples;
 
 use super::draft::site_record;
-use super::sampled::outline_record;
+use super::exterior::exterior_frame;
+use super::sampled::{outline_record, outside_record};
 use super::watch::Watch;
 use super::{EngineError, Options};
 use crate::axis::{MedialAxis, Side};
-use crate::domain::{Domain, Site};
-use crate::geom::{Blocked, Delaunay, Point};
+use crate::domain::{Complement, Domain, Site};
+use crate::geom::{Blocked, Delaunay, Point, Rect};
 use crate::raster::{Cracks, Mask, default_cell};
 use axis::{Drawn, Label};
 use dual::Dual;
@@ -108,6 +110,8 @@ pub struct Sampling {
 #[derive(Debug)]
 pub struct DelaunayDual<'a> {
     source: Source<'a>,
+    /// Where the axis outside ends.
+    frame: Option<Rect>,
     samples: Samples,
     plane: Plane,
     triangles: Delaunay,
@@ -121,6 +125,7 @@ pub struct DelaunayDual<'a> {
 #[derive(Debug)]
 enum Source<'a> {
     Domain(&'a Domain),
+    Outside(Box<Complement>),
     Mask(&'a Mask, Box<Cracks>),
 }
 
@@ -148,21 +153,55 @@ impl<'a> DelaunayDual<'a> {
     /// stop.
     pub fn new(domain: &'a Domain, options: &Options<'_>) -> Result<Self, EngineError> {
         let spacing = options.spacing.unwrap_or_else(|| default_cell(domain));
-        let watch = Watch::new(options);
+        Self::sampled(Source::Domain(domain), None, spacing, &Watch::new(options))
+    }
+
+    /// The dual graph of the outside of a domain, sampled as the options say. Its axis ends at a frame, as that of
+    /// [`exterior`](super::exterior()).
+    ///
+    /// # Errors
+    /// Those of [`new`](Self::new), and if the margin makes no frame.
+    pub fn outside(
+        domain: &Domain,
+        margin: Option<f64>,
+        options: &Options<'_>,
+    ) -> Result<Self, EngineError> {
+        let spacing = options.spacing.unwrap_or_else(|| default_cell(domain));
+        let frame = exterior_frame(domain, margin)?;
+        let outside = Complement::new(domain, &frame).map_err(|_| {
+            let place = domain.edges().first().map(|edge| edge.start).unwrap_or_default();
+            EngineError::Internal { stage: "turning a domain inside out", place }
+        })?;
+        let source = Source::Outside(Box::new(outside));
+        Self::sampled(source, Some(frame), spacing, &Watch::new(options))
+    }
+
+    /// The dual graph of what is to the left of the walks of a domain.
+    fn sampled(
+        source: Source<'a>,
+        frame: Option<Rect>,
+        spacing: f64,
+        watch: &Watch<'_>,
+    ) -> Result<Self, EngineError> {
         // Edges that are taken whole, as points between their ends would come to lie on others by rounding.
         let mut whole = BTreeSet::new();
         loop {
-            let samples = Samples::of_walks(domain, domain.walks(), spacing, &whole)?;
+            let (domain, walks) = match &source {
+                Source::Domain(domain) => (*domain, domain.walks()),
+                Source::Outside(outside) => (outside.domain(), &outside.domain().walks()[1..]),
+                Source::Mask(..) => break Err(EngineError::Spacing { spacing }),
+            };
+            let samples = Samples::of_walks(domain, walks, spacing, &whole)?;
             watch.check_now()?;
             let crowded = match triangulated(&samples) {
                 Ok(graph) => match samples.merged(domain, &graph.0) {
                     merged if merged.is_empty() => {
-                        let source = Source::Domain(domain);
                         let spacing = match whole.is_empty() {
                             true => spacing,
                             false => samples.gap().max(spacing),
                         };
-                        return Self::of(source, samples, Plane::Given, graph, spacing, &watch);
+                        let plane = Plane::Given;
+                        return Self::of(source, frame, samples, plane, graph, spacing, watch);
                     }
                     merged => merged,
                 },
@@ -197,11 +236,13 @@ impl<'a> DelaunayDual<'a> {
                 EngineError::Crowded { place }
             })?,
         };
-        Self::of(Source::Mask(mask, Box::new(cracks)), samples, plane, graph, spacing, &watch)
+        let source = Source::Mask(mask, Box::new(cracks));
+        Self::of(source, None, samples, plane, graph, spacing, &watch)
     }
 
     fn of(
         source: Source<'a>,
+        frame: Option<Rect>,
         samples: Samples,
         plane: Plane,
         (triangles, n_missing): (Delaunay, u32),
@@ -213,7 +254,7 @@ impl<'a> DelaunayDual<'a> {
         watch.check_now()?;
         let disks = dual::disks(&triangles, &dual);
         watch.check_now()?;
-        Ok(Self { source, samples, plane, triangles, n_missing, dual, disks, spacing })
+        Ok(Self { source, frame, samples, plane, triangles, n_missing, dual, disks, spacing })
     }
 
     /// The samples, ring by ring, in the plane of the input.
@@ -253,9 +294,11 @@ impl<'a> DelaunayDual<'a> {
         nodes
     }
 
-    /// The edges of the dual graph, as pairs of nodes.
-    pub fn edges(&self) -> impl ExactSizeIterator<Item = [u32; 2]> {
-        self.dual.edges.iter().map(|edge| [edge.from, edge.to])
+    /// The edges of the dual graph, as pairs of nodes; without those to infinity.
+    pub fn edges(&self) -> impl Iterator<Item = [u32; 2]> {
+        let n = (self.disks.len() + self.dual.shared.len()) as u32;
+        let pairs = self.dual.edges.iter().map(|edge| [edge.from, edge.to]);
+        pairs.filter(move |[_, to]| *to < n)
     }
 
     /// The edges of the Delaunay graph inside, as pairs of points, and whether they are on the boundary.
@@ -320,25 +363,27 @@ impl<'a> DelaunayDual<'a> {
                 Left::without(dual, |edge| residuals[edge as usize] <= most)
             }
         };
-        let drawn = Drawn {
-            samples,
-            triangles,
-            dual,
-            disks,
-            plane: *plane,
-            edges: &left.edges,
-            alone: &left.alone,
-        };
-        let complete = pruning == DualPruning::Nothing;
-        let label = Label { side: Side::Interior, complete, spacing: self.spacing };
+        let (plane, frame) = (*plane, self.frame);
+        // What lies beyond the last circle of a branch into a corner has less than any residual.
+        let ends = pruning == DualPruning::Nothing && !matches!(self.source, Source::Mask(..));
+        let drawn = Drawn { samples, triangles, dual, disks, plane, frame, left: &left, ends };
+        // Outside, the boundary has parts that no disk within the frame is near.
+        let complete = pruning == DualPruning::Nothing && self.frame.is_none();
+        let spacing = self.spacing;
+        let label = |side| Label { side, complete, spacing };
         match &self.source {
             Source::Domain(domain) => {
                 let record = |element| site_record(domain, Site(element));
-                drawn.axis(2 * domain.edges().len(), record, &label)
+                drawn.axis(2 * domain.edges().len(), record, &label(Side::Interior))
+            }
+            Source::Outside(outside) => {
+                let record = |element| outside_record(outside.domain(), Site(element));
+                let n_elements = 2 * outside.domain().edges().len();
+                drawn.axis(n_elements, record, &label(Side::Exterior))
             }
             Source::Mask(mask, cracks) => {
                 let record = |element| outline_record(cracks, mask.grid(), element);
-                drawn.axis(cracks.edges.len(), record, &label)
+                drawn.axis(cracks.edges.len(), record, &label(Side::Interior))
             }
         }
     }
@@ -364,6 +409,18 @@ fn triangulated(samples: &Samples) -> Result<(Delaunay, u32), [u32; 4]> {
 /// Those of [`DelaunayDual::new`] and [`DelaunayDual::axis`].
 pub fn delaunay_dual(domain: &Domain, options: &Options<'_>) -> Result<MedialAxis, EngineError> {
     DelaunayDual::new(domain, options)?.axis(DualPruning::Nothing)
+}
+
+/// The sampled medial axis of the outside of a domain, within a frame; see [`DelaunayDual::outside`].
+///
+/// # Errors
+/// Those of [`DelaunayDual::outside`] and [`DelaunayDual::axis`].
+pub(super) fn outside(
+    domain: &Domain,
+    margin: Option<f64>,
+    options: &Options<'_>,
+) -> Result<MedialAxis, EngineError> {
+    DelaunayDual::outside(domain, margin, options)?.axis(DualPruning::Nothing)
 }
 
 /// The sampled medial axis of a mask, pruned by the chord residual of the options, if there is one; see

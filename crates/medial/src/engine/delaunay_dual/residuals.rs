@@ -5,8 +5,8 @@ use super::samples::Samples;
 use crate::geom::Delaunay;
 
 /// How much longer the boundary between both samples across an edge of the dual graph is than their distance
-/// [OK95], the shorter way around; infinite between two rings, and next to a vertex where the boundary touches
-/// itself.
+/// [OK95], the shorter way around; infinite between two rings, towards infinity, and next to a vertex where the boundary
+/// touches itself.
 pub(super) fn residuals(triangles: &Delaunay, samples: &Samples, dual: &Dual) -> Vec<f64> {
     let along = samples.along();
     let n_groups = dual.groups.len() as u32;
@@ -18,7 +18,7 @@ pub(super) fn residuals(triangles: &Delaunay, samples: &Samples, dual: &Dual) ->
     let lengths: Vec<f64> = samples.rings.iter().map(length).collect();
     let ring_of = |sample: u32| samples.rings.partition_point(|ring| ring.end <= sample);
     let residual = |edge: &super::dual::DualEdge| {
-        if edge.from >= n_groups {
+        if edge.from >= n_groups || edge.to >= n_groups {
             return f64::INFINITY;
         }
         let ends = [edge.across, triangles.reversed(edge.across)];

@@ -173,11 +173,20 @@ impl Samples {
     }
 
     fn nearer(&self, sample: u32, to: Point) -> u32 {
-        let at = self.points[sample as usize];
-        let [before, after] = self.around(sample).map(|k| self.points[k as usize] - at);
-        let bisector = before * (1.0 / before.norm()) + after * (1.0 / after.norm());
+        let way = to - self.points[sample as usize];
         let elements = self.elements[sample as usize];
-        elements[usize::from(bisector.cross(to - at) < 0.0)]
+        elements[usize::from(self.bisector(sample).cross(way) < 0.0)]
+    }
+
+    /// The direction into a corner, between its two sides.
+    pub fn bisector(&self, sample: u32) -> Point {
+        let at = self.points[sample as usize];
+        let [before, after] = self.around(sample).map(|k| {
+            let way = self.points[k as usize] - at;
+            way * (1.0 / way.norm())
+        });
+        // Near half a turn the sum of both says little.
+        if before.dot(after) < 0.0 { (after - before).perp() } else { before + after }
     }
 
     /// All pairs of neighbours along rings.

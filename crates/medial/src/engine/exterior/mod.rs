@@ -20,11 +20,11 @@
 mod cut;
 mod frame;
 
+use super::delaunay_dual::{self, delaunay_dual_of_mask};
 use super::divide_and_conquer::{self, divide_and_conquer_with};
 use super::draft::site_record;
 use super::{
-    Burning, EngineError, Options, RidgeOptions, brushfire, brushfire_of_domain, delaunay_dual,
-    delaunay_dual_of_mask, path_tracing_with,
+    Burning, EngineError, Options, RidgeOptions, brushfire, brushfire_of_domain, path_tracing_with,
     raster_transform, raster_transform_of_domain, ridge_following, ridge_following_of_mask,
 };
 use crate::axis::{Accuracy, Engine, KeypointKind, MedialAxis, Path, Side};
@@ -51,7 +51,7 @@ pub fn interior(
             ridge_following(domain, &RidgeOptions::default(), options).map(|ridges| ridges.axis)
         }
         Engine::Brushfire => brushfire_of_domain(domain, Burning::default(), options),
-        Engine::DelaunayDual => delaunay_dual(domain, options),
+        Engine::DelaunayDual => delaunay_dual::delaunay_dual(domain, options),
     }
 }
 
@@ -111,7 +111,8 @@ pub fn exterior(
             let ridge = RidgeOptions { side: Side::Exterior, margin, ..RidgeOptions::default() };
             return ridge_following(domain, &ridge, options).map(|ridges| ridges.axis);
         }
-        Engine::RasterTransform | Engine::Brushfire | Engine::DelaunayDual => {
+        Engine::DelaunayDual => return delaunay_dual::outside(domain, margin, options),
+        Engine::RasterTransform | Engine::Brushfire => {
             return Err(EngineError::NoExterior { engine });
         }
     }
