@@ -9,8 +9,8 @@ use crate::timings::timed;
 use medial::axis::{Engine, Joining, MedialAxis, Side};
 use medial::domain::Domain;
 use medial::engine::{
-    self, EngineError, RidgeOptions, both_sides, brushfire, brushfire_of_domain, exterior,
-    interior, of_mask, ridge_following, ridge_following_of_mask,
+    self, DelaunayDual, EngineError, RidgeOptions, both_sides, brushfire, brushfire_of_domain,
+    exterior, interior, of_mask, ridge_following, ridge_following_of_mask,
 };
 use medial::ops::{Hierarchy, Significance};
 use medial::raster::default_cell;
@@ -37,6 +37,7 @@ pub fn run(args: &AxisArgs) -> Result<Status, Failure> {
 fn run_on(args: &AxisArgs, documents: Documents) -> Result<Status, Failure> {
     args.region.check()?;
     args.engine.check()?;
+    args.pruning.check(&args.engine)?;
     if let Some(nodes) = args.nodes.as_deref() {
         let others = [&args.output, &args.common.report, &args.common.timings];
         if nodes.as_os_str() == "-"
@@ -187,10 +188,34 @@ pub fn traced(
         (_, cell) => cell.unwrap_or_else(|| default_cell(domain)),
     };
     let residual = pruning.residual(cell);
-    let options = engine::Options { cell: Some(cell), residual, ..*options };
+    let spacing = chosen.spacing;
+    let options = engine::Options { cell: Some(cell), spacing, residual, ..*options };
     let sides = region.side.all().iter();
+    if engine == Engine::DelaunayDual {
+        let pruning = pruning.of_dual(feature, cell);
+        let axis = |&side| dual(region, side, feature, domain, &options)?.axis(pruning);
+        return sides
+            .map(axis)
+            .collect::<Result<_, _>>()
+            .map_err(|error| Entry::unfinished(&error));
+    }
     let axis = |&side| sampled(chosen, region, side, feature, domain, engine, &options);
     sides.map(axis).collect::<Result<_, _>>().map_err(|error| Entry::unfinished(&error))
+}
+
+/// The dual graph of a feature on a side.
+fn dual<'a>(
+    region: &Region,
+    side: Side,
+    feature: &'a Feature,
+    domain: &'a Domain,
+    options: &engine::Options<'_>,
+) -> Result<DelaunayDual<'a>, EngineError> {
+    match (&feature.mask, side) {
+        (_, Side::Exterior) => DelaunayDual::outside(domain, region.frame, options),
+        (Some(mask), _) => DelaunayDual::of_mask(mask, options),
+        (None, _) => DelaunayDual::new(domain, options),
+    }
 }
 
 /// The axis on a side by an engine on cells.

@@ -87,10 +87,11 @@ impl Samples {
             let number = cracks.contours[contour as usize].first;
             for (number, edge) in (number..).zip(cracks.edges_of(contour)) {
                 let ways = [0, 1].map(|k| f64::from(edge.to[k]) - f64::from(edge.from[k]));
-                let length = ways[0].abs() + ways[1].abs();
-                for k in 0..length as u32 {
-                    let along = (f64::from(k) + 0.5) / length;
-                    let middle = [0, 1].map(|k| f64::from(edge.from[k]) + ways[k] * along);
+                // All of these are short binary fractions.
+                let steps = ways.map(|way| if way == 0.0 { 0.0 } else { way.signum() });
+                for k in 0..(ways[0].abs() + ways[1].abs()) as u32 {
+                    let along = f64::from(k) + 0.5;
+                    let middle = [0, 1].map(|k| f64::from(edge.from[k]) + steps[k] * along);
                     middles.push((middle, number));
                 }
             }
