@@ -41,7 +41,9 @@ pub enum EngineError {
         spacing: f64,
     },
     /// There would be too many samples.
-    #[error("samples {spacing} apart are {samples:.0}, and at most 100 million can be; give a larger distance")]
+    #[error(
+        "samples {spacing} apart are {samples:.0}, and at most 100 million can be; give a larger distance"
+    )]
     Samples {
         /// How many there would be.
         samples: f64,

@@ -17,7 +17,8 @@ mod watch;
 
 pub use brushfire::{Burning, Burnt, brushfire, brushfire_of_domain};
 pub use delaunay_dual::{
-    DelaunayDual, DualKind, DualNode, DualPruning, Sampling, delaunay_dual, delaunay_dual_of_mask,
+    Border, DelaunayDual, DualKind, DualNode, DualPruning, Sampling, border, crust, delaunay_dual,
+    delaunay_dual_of_mask, two_step_crust,
 };
 pub use divide_and_conquer::{
     ArcEnd, Chain, ChainArc, ChainElement, ChainMerge, Work, chain_diagram, chain_merge,

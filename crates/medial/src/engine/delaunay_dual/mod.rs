@@ -31,6 +31,7 @@
 //! is the centre of the circle that touches that edge.
 
 mod axis;
+mod crust;
 mod dual;
 mod residuals;
 mod samples;
@@ -45,6 +46,7 @@ use crate::domain::{Complement, Domain, Site};
 use crate::geom::{Blocked, Delaunay, Point, Rect};
 use crate::raster::{Cracks, Mask, default_cell};
 use axis::{Drawn, Label};
+pub use crust::{Border, border, crust, two_step_crust};
 use dual::Dual;
 pub use dual::DualKind;
 use residuals::{Left, residuals};
