@@ -413,3 +413,36 @@ fn the_dual_graph_is_isomorphic_to_the_exact_axis() {
         assert_eq!(others, branches, "{text}");
     }
 }
+
+#[test]
+fn a_smoothed_or_retracted_border_has_fewer_ends_and_the_same_topology() {
+    let options = Options::default();
+    // Those of more than a hair: the outline is longer by a tenth of a pixel.
+    let ends = |dual: &DelaunayDual<'_>, mask: &Mask| {
+        let axis = dual.axis(DualPruning::Chord(0.1)).unwrap();
+        let whole = topology(mask);
+        assert_eq!(graph_topology(&axis), (whole.components, whole.holes));
+        axis.degrees().iter().filter(|&&degree| degree == 1).count()
+    };
+    let mut all = [0; 3];
+    for seed in 0..100 {
+        let mask = random_mask(seed);
+        let dual = DelaunayDual::of_mask(&mask, &options).unwrap();
+        ends(&dual, &mask);
+        ends(&DelaunayDual::of_smoothed_mask(&mask, 1.0, &options).unwrap(), &mask);
+        ends(&dual.retracted(1.0, &options).unwrap(), &mask);
+        // Ovals with a hole.
+        let (a, b) = (20.0 + seed as f64 / 9.0, 30.0 - seed as f64 / 13.0);
+        let is_inside = |x: u32, y: u32| {
+            let (x, y) = ((f64::from(x) - 35.3) / a, (f64::from(y) - 35.7) / b);
+            (0.3..1.0).contains(&(x * x + y * y))
+        };
+        let oval = Mask::new(Grid::of_image(72, 72), is_inside).unwrap();
+        let dual = DelaunayDual::of_mask(&oval, &options).unwrap();
+        all[0] += ends(&dual, &oval);
+        all[1] += ends(&DelaunayDual::of_smoothed_mask(&oval, 2.0, &options).unwrap(), &oval);
+        all[2] += ends(&dual.retracted(1.0, &options).unwrap(), &oval);
+    }
+    let [pixels, smooth, retracted] = all;
+    assert!(20 * smooth < pixels && 20 * retracted < pixels, "{all:?}");
+}

@@ -20,6 +20,14 @@ pub struct ChosenEngine {
     /// default a thousandth of the longer side of the feature's box, and half the side of a pixel for images
     #[arg(long, value_name = "D", value_parser = positive, allow_negative_numbers = true)]
     pub spacing: Option<f64>,
+    /// The width of a Gaussian along the outline of an image by which delaunay_dual smooths it, in pixels; samples move
+    /// by 0.35 pixels at most
+    #[arg(long, value_name = "SIGMA", value_parser = positive, allow_negative_numbers = true)]
+    pub smooth_border: Option<f64>,
+    /// Let delaunay_dual draw the border back to where hairs begin: what lies behind branches with a chord residual of
+    /// no more than this, in units of the input, becomes arcs
+    #[arg(long, value_name = "V", value_parser = positive, allow_negative_numbers = true)]
+    pub retract: Option<f64>,
     /// How ridge_following finds the two nearest elements: tree, sorted (as in the report), six_vertices (which
     /// may miss one)
     #[arg(long, value_name = "NAME", value_parser = named::<RidgeSearch>)]
@@ -36,7 +44,9 @@ pub struct ChosenEngine {
 impl ChosenEngine {
     /// Fails if something is said to an engine that another one would listen to.
     pub fn check(&self) -> Result<(), Failure> {
-        let others: [(&str, bool, Engine); 4] = [
+        let others: [(&str, bool, Engine); 6] = [
+            ("--smooth-border", self.smooth_border.is_some(), Engine::DelaunayDual),
+            ("--retract", self.retract.is_some(), Engine::DelaunayDual),
             ("--spacing", self.spacing.is_some(), Engine::DelaunayDual),
             ("--search", self.search.is_some(), Engine::RidgeFollowing),
             ("--thinning", self.thinning.is_some(), Engine::RidgeFollowing),

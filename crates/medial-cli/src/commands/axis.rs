@@ -193,7 +193,7 @@ pub fn traced(
     let sides = region.side.all().iter();
     if engine == Engine::DelaunayDual {
         let pruning = pruning.of_dual(feature, cell);
-        let axis = |&side| dual(region, side, feature, domain, &options)?.axis(pruning);
+        let axis = |&side| dual(chosen, region, side, feature, domain, &options)?.axis(pruning);
         return sides
             .map(axis)
             .collect::<Result<_, _>>()
@@ -205,16 +205,22 @@ pub fn traced(
 
 /// The dual graph of a feature on a side.
 fn dual<'a>(
+    chosen: &ChosenEngine,
     region: &Region,
     side: Side,
     feature: &'a Feature,
     domain: &'a Domain,
     options: &engine::Options<'_>,
 ) -> Result<DelaunayDual<'a>, EngineError> {
-    match (&feature.mask, side) {
+    let width = chosen.smooth_border.unwrap_or(0.0);
+    let dual = match (&feature.mask, side) {
         (_, Side::Exterior) => DelaunayDual::outside(domain, region.frame, options),
-        (Some(mask), _) => DelaunayDual::of_mask(mask, options),
+        (Some(mask), _) => DelaunayDual::of_smoothed_mask(mask, width, options),
         (None, _) => DelaunayDual::new(domain, options),
+    }?;
+    match chosen.retract {
+        Some(residual) => dual.retracted(residual, options),
+        None => Ok(dual),
     }
 }
 

@@ -35,6 +35,7 @@ mod crust;
 mod dual;
 mod residuals;
 mod samples;
+mod smooth;
 
 use super::draft::site_record;
 use super::exterior::exterior_frame;
@@ -223,23 +224,51 @@ impl<'a> DelaunayDual<'a> {
     /// # Errors
     /// If the spacing is none or makes too many samples, or the options say to stop.
     pub fn of_mask(mask: &'a Mask, options: &Options<'_>) -> Result<Self, EngineError> {
+        Self::of_smoothed_mask(mask, 0.0, options)
+    }
+
+    /// The same for an outline that is smoothed by a Gaussian of that width along it, in sides of cells. No sample moves
+    /// by more than 0.35 of these, so components and holes stay.
+    ///
+    /// # Errors
+    /// Those of [`of_mask`](Self::of_mask).
+    pub fn of_smoothed_mask(
+        mask: &'a Mask,
+        width: f64,
+        options: &Options<'_>,
+    ) -> Result<Self, EngineError> {
         let watch = Watch::new(options);
         let cracks = Cracks::new(&mask.bits, None);
         watch.check_now()?;
         let plane = Plane::of_cells(mask.grid());
         let size = mask.grid().cell_size();
-        let spacing = options.spacing.unwrap_or(MASK_SPACING * size);
-        let samples = Samples::of_cracks(&cracks, plane.factors(), spacing / size)?;
+        let mut spacing = options.spacing.unwrap_or(MASK_SPACING * size);
+        let mut samples = Samples::of_cracks(&cracks, plane.factors(), spacing / size)?;
+        if width > 0.0 {
+            // Where cells are no squares, the plane of samples has the size of the cells.
+            let factor = size / plane.unit();
+            spacing += smooth::average(&mut samples, width, factor) * plane.unit();
+        }
         watch.check_now()?;
-        let graph = match samples.len() {
-            0 => (Delaunay::default(), 0),
-            _ => triangulated(&samples).map_err(|crowded| {
-                let place = plane.place(samples.points[crowded[0] as usize]);
-                EngineError::Crowded { place }
-            })?,
-        };
         let source = Source::Mask(mask, Box::new(cracks));
+        let graph = graph_of(&samples, &plane)?;
         Self::of(source, None, samples, plane, graph, spacing, &watch)
+    }
+
+    /// The same with the border drawn back to where hairs begin [TG00]: what lies behind branches with a chord residual
+    /// of no more than this, in units of the input, becomes arcs of the circles where these begin, or nearly.
+    ///
+    /// The elements that govern the axis are those of the border as it was.
+    ///
+    /// # Errors
+    /// [`EngineError::Crowded`] if the border would come to lie on itself, or the options say to stop.
+    pub fn retracted(self, residual: f64, options: &Options<'_>) -> Result<Self, EngineError> {
+        let left = self.left(DualPruning::Chord(residual));
+        let Self { source, frame, mut samples, plane, triangles, dual, disks, spacing, .. } = self;
+        let moved = smooth::retract(&mut samples, &triangles, &dual, &disks, &left);
+        let spacing = spacing + moved * plane.unit();
+        let graph = graph_of(&samples, &plane)?;
+        Self::of(source, frame, samples, plane, graph, spacing, &Watch::new(options))
     }
 
     fn of(
@@ -350,13 +379,10 @@ impl<'a> DelaunayDual<'a> {
         sampling
     }
 
-    /// The axis: what pruning leaves of the dual graph, its edges replaced by Voronoi edges.
-    ///
-    /// # Errors
-    /// If there are more elements than 32-bit numbers tell apart.
-    pub fn axis(&self, pruning: DualPruning) -> Result<MedialAxis, EngineError> {
-        let Self { samples, triangles, dual, disks, plane, .. } = self;
-        let left = match pruning {
+    /// What pruning leaves of the dual graph.
+    fn left(&self, pruning: DualPruning) -> Left {
+        let Self { samples, triangles, dual, plane, .. } = self;
+        match pruning {
             DualPruning::Nothing => Left::all(dual),
             DualPruning::Leaves => Left::without_leaves(dual),
             DualPruning::Chord(most) => {
@@ -364,7 +390,16 @@ impl<'a> DelaunayDual<'a> {
                 let most = most / plane.unit();
                 Left::without(dual, |edge| residuals[edge as usize] <= most)
             }
-        };
+        }
+    }
+
+    /// The axis: what pruning leaves of the dual graph, its edges replaced by Voronoi edges.
+    ///
+    /// # Errors
+    /// If there are more elements than 32-bit numbers tell apart.
+    pub fn axis(&self, pruning: DualPruning) -> Result<MedialAxis, EngineError> {
+        let Self { samples, triangles, dual, disks, plane, .. } = self;
+        let left = self.left(pruning);
         let (plane, frame) = (*plane, self.frame);
         // What lies beyond the last circle of a branch into a corner has less than any residual.
         let ends = pruning == DualPruning::Nothing && !matches!(self.source, Source::Mask(..));
@@ -403,6 +438,17 @@ fn triangulated(samples: &Samples) -> Result<(Delaunay, u32), [u32; 4]> {
             Err([a, b, c, d].map(|vertex| triangles.point_of(vertex)))
         }
     }
+}
+
+/// The triangulation of samples in a plane.
+fn graph_of(samples: &Samples, plane: &Plane) -> Result<(Delaunay, u32), EngineError> {
+    if samples.len() == 0 {
+        return Ok((Delaunay::default(), 0));
+    }
+    triangulated(samples).map_err(|crowded| {
+        let place = plane.place(samples.points[crowded[0] as usize]);
+        EngineError::Crowded { place }
+    })
 }
 
 /// The sampled medial axis of a domain, complete; see [`DelaunayDual`].
