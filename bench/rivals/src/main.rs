@@ -20,7 +20,7 @@ use cpu_time::ThreadTime;
 use i_overlay::mesh::outline::offset::OutlineOffset as _;
 use i_overlay::mesh::style::{LineJoin, OutlineStyle};
 use image::{DynamicImage, GrayImage};
-use medial::geom::{Delaunay, Point};
+use medial::geom::{Delaunay, Point, Rect, hilbert};
 use medial::raster::{Grid, outline};
 use medial_bench::bitmap;
 use medial_bench::measure::{Error, Work, report};
@@ -106,18 +106,28 @@ fn delaunay(file: &str) -> Result<(), Error> {
         points.iter().filter(|&&point| triangulation.insert(point).is_err()).count();
         triangulation.num_inner_faces()
     };
+    let bounds = samples.iter().fold(Rect::EMPTY, |all, &p| all.with(p));
+    let mut sorted = samples.clone();
+    sorted.sort_by_cached_key(|&p| hilbert(&bounds, p));
+    let sorted: Vec<Point2<f64>> = sorted.iter().map(|p| Point2::new(p.x, p.y)).collect();
+    let along_curve = || {
+        let mut triangulation = DelaunayTriangulation::<Point2<f64>>::new();
+        sorted.iter().filter(|&&point| triangulation.insert(point).is_err()).count();
+        triangulation.num_inner_faces()
+    };
     let bulk = || {
         let triangulation = DelaunayTriangulation::<Point2<f64>>::bulk_load(points.clone());
         triangulation.map_or(0, |triangulation| triangulation.num_inner_faces())
     };
     let sweep = || delaunator::triangulate(&plain).len();
-    let runs: [(&str, &dyn Fn() -> usize); 4] = [
+    let runs: [(&str, &dyn Fn() -> usize); 5] = [
         ("medial", &medial),
         ("spade", &incremental),
+        ("spade_hilbert", &along_curve),
         ("spade_bulk", &bulk),
         ("delaunator", &sweep),
     ];
-    let mut times = [const { Vec::new() }; 4];
+    let mut times = [const { Vec::new() }; 5];
     let begun = ThreadTime::now();
     while times[0].len() < 3 || begun.elapsed().as_secs_f64() < 3.0 {
         for ((_, run), times) in runs.iter().zip(&mut times) {

@@ -1,4 +1,4 @@
-//! The dual graph of the triangles inside, by the five rules [SDK09, §III].
+//! The dual graph of the triangles inside, by the five rules [ASM09, §III].
 
 use std::ops::Range;
 
@@ -8,7 +8,7 @@ use crate::geom::{Delaunay, EdgeId, Point};
 /// No group, no sample.
 pub(super) const NONE: u32 = u32::MAX;
 
-/// What a node of the dual graph is [SDK09, Proposition 5].
+/// What a node of the dual graph is [ASM09, Proposition 5].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DualKind {
     /// Degree 1, or none: a triangle with two sides on the boundary, or with three.

@@ -1,4 +1,4 @@
-//! The dual of the Delaunay graph of samples of the boundary [SDK09].
+//! The dual of the Delaunay graph of samples of the boundary [ASM09].
 //!
 //! # Contract
 //! The axis has the components and cycles of the domain, whatever the spacing; where the boundary touches itself it
@@ -12,16 +12,16 @@
 //!    points between them, half a cell apart or less, whose coordinates are short binary fractions.
 //! 2. Their Delaunay triangulation ([`Delaunay`]), in which neighbours along the boundary are joined. Where they are
 //!    not of themselves the sampling is too coarse, which [`Sampling`] tells.
-//! 3. The dual graph by the rules of [SDK09, §III], in their order: a node for each triangle inside; one for all
+//! 3. The dual graph by the rules of [ASM09, §III], in their order: a node for each triangle inside; one for all
 //!    triangles on one circle, decided exactly; at vertices of more than two boundary edges a node of its own, joined
 //!    to the triangles between two of these, or to their circle; an edge between nodes on both sides of an inner edge.
 //! 4. Nodes move from the middles of their triangles to the centres of their circles, so edges of the dual graph
 //!    become Voronoi edges; the elements that their two samples lie on govern them.
 //! 5. Branches into corners of a domain go on to these from the centre of the last circle.
-//! 6. Leaves go, if that is asked for, by the chord residual [OK95], or those of one triangle [SDK09, §VII].
+//! 6. Leaves go, if that is asked for, by the chord residual [OK95], or those of one triangle [ASM09, §VII].
 //!
 //! # Departures
-//! [SDK09] finds the boundary by the crust, which it has no other way to know. Here boundary edges are known and kept,
+//! [ASM09] finds the boundary by the crust, which it has no other way to know. Here boundary edges are known and kept,
 //! so that the dual graph is right with any samples; the crust is what tells where they are too few.
 //!
 //! Rule 3 joins a shared vertex to any circle through it; here only to one that lies between two boundary edges, as

@@ -47,7 +47,7 @@ impl Left {
         Self::without(dual, |_| false)
     }
 
-    /// What is left without leaves beside a node with more than two edges [SDK09, §VII].
+    /// What is left without leaves beside a node with more than two edges [ASM09, §VII].
     pub fn without_leaves(dual: &Dual) -> Self {
         let degrees = dual.degrees();
         Self::without(dual, |number| {

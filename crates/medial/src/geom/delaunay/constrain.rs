@@ -1,4 +1,4 @@
-//! Edges that are kept whatever circles say [Sloan93], and circles that hold nothing visible [LL86].
+//! Edges that are kept whatever circles say [Slo93], and circles that hold nothing visible [LL86].
 
 use std::collections::VecDeque;
 

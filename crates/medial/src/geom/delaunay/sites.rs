@@ -43,7 +43,7 @@ const SMALL: f64 = 16_384.0;
 /// nor overflow.
 const SAFE: std::ops::Range<i32> = -250..240;
 
-/// Bounds on the relative errors of the determinants of three and of four points, as in [Shewchuk97].
+/// Bounds on the relative errors of the determinants of three and of four points, as in [She97].
 const ORIENT_ERROR: f64 = (3.0 + 16.0 * UNIT) * UNIT;
 const CIRCLE_ERROR: f64 = (10.0 + 96.0 * UNIT) * UNIT;
 const UNIT: f64 = f64::EPSILON / 2.0;
