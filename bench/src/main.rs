@@ -12,6 +12,8 @@
 //! arcs, starts; `medial-bench raster FILE.pbm [BAND_ROWS]` times the raster transform of a bitmap,
 //! and `medial-bench skeleton FILE.pbm TARGET.pbm [none]` writes its medial cells;
 //! `medial-bench ridge` runs the experiments of the report on ridge following, as `ridge` describes,
+//! `medial-bench dual FILE.pbm` times `delaunay_dual` on a bitmap, `medial-bench spacing FILE.pbm` and
+//! `medial-bench spacing SHAPE EDGES` tell how far it is from the exact axis, as `dual` describes,
 //! and `medial-bench inverse FILE.pbm...` tells how well disks give bitmaps back.
 
 use std::{env, hint};
@@ -30,7 +32,7 @@ use medial::ops::{
 };
 use medial::raster::Grid;
 use medial_bench::measure::{Error, Work, peak_bytes, report};
-use medial_bench::{bitmap, inversion, ridge, shapes, text};
+use medial_bench::{bitmap, dual, inversion, ridge, shapes, text};
 
 fn main() -> Result<(), Error> {
     let args: Vec<String> = env::args().skip(1).collect();
@@ -46,11 +48,14 @@ fn main() -> Result<(), Error> {
         ["raster", file] => raster(file, None),
         ["raster", file, rows] => raster(file, Some(rows.parse()?)),
         ["ridge"] => ridges(),
+        ["dual", file] => dual::bitmap(file),
+        ["spacing", file] => dual::spacing_of_bitmap(file),
+        ["spacing", shape, edges] => dual::spacing(shape, edges.parse()?),
         ["inverse", files @ ..] => inverses(files),
         ["skeleton", file, target] => skeleton(file, target, engine::Options::default().residual),
         ["skeleton", file, target, "none"] => skeleton(file, target, None),
         _ => {
-            Err("medial-bench draw, axis or work SHAPE EDGES, time [ENGINE], both ENGINE, operation NAME or offsets D,D, ridge, inverse FILE.pbm..., raster FILE.pbm [BAND_ROWS] or skeleton FILE.pbm TARGET.pbm [none]".into())
+            Err("medial-bench draw, axis or work SHAPE EDGES, time [ENGINE], both ENGINE, operation NAME or offsets D,D, ridge, inverse FILE.pbm..., dual FILE.pbm, spacing FILE.pbm, spacing SHAPE EDGES, raster FILE.pbm [BAND_ROWS] or skeleton FILE.pbm TARGET.pbm [none]".into())
         }
     }
 }

@@ -10,17 +10,18 @@
 //!
 //! `rivals i_overlay D,D` prints, as JSON, the areas of the outlines of `i_overlay` at these distances, inward
 //! if positive, and the seconds that took without reading. `rivals raster FILE.pbm` thins a bitmap with
-//! `skeletonize`.
+//! `skeletonize`, and `rivals delaunay FILE.pbm` triangulates the samples of its outline, as `delaunay_dual` takes
+//! them, by turns with `medial`, `spade` and `delaunator`.
 
-use std::env;
+use std::{env, hint};
 
 use boostvoronoi::prelude::{Builder, Diagram, Line};
 use cpu_time::ThreadTime;
 use i_overlay::mesh::outline::offset::OutlineOffset as _;
 use i_overlay::mesh::style::{LineJoin, OutlineStyle};
 use image::{DynamicImage, GrayImage};
-use medial::geom::Point;
-use medial::raster::Grid;
+use medial::geom::{Delaunay, Point, Rect, hilbert};
+use medial::raster::{Grid, outline};
 use medial_bench::bitmap;
 use medial_bench::measure::{Error, Work, report};
 use medial_bench::text::{self, Polygons};
@@ -35,6 +36,9 @@ fn main() -> Result<(), Error> {
     if let (Some("raster"), Some(file)) = (env::args().nth(1).as_deref(), env::args().nth(2)) {
         return skeletonize(&file);
     }
+    if let (Some("delaunay"), Some(file)) = (env::args().nth(1).as_deref(), env::args().nth(2)) {
+        return delaunay(&file);
+    }
     let features = text::read()?;
     match env::args().nth(1).as_deref() {
         Some("boostvoronoi") => boostvoronoi(&features),
@@ -48,7 +52,7 @@ fn main() -> Result<(), Error> {
             i_overlay(&features, &distances);
             Ok(())
         }
-        _ => Err("rivals boostvoronoi, delaunator, spade, spade-cdt or i_overlay D,D".into()),
+        _ => Err("rivals boostvoronoi, delaunator, spade, spade-cdt, i_overlay D,D, raster FILE.pbm or delaunay FILE.pbm".into()),
     }
 }
 
@@ -69,6 +73,74 @@ fn skeletonize(file: &str) -> Result<(), Error> {
     }
     times.sort_by(f64::total_cmp);
     println!("{{\"ns\": {}}}", times[times.len() / 2]);
+    Ok(())
+}
+
+/// The middles of the sides of cells along the outline of a bitmap, and the middles between these.
+fn samples(file: &str) -> Result<Vec<Point>, Error> {
+    let mut samples = Vec::new();
+    for ring in outline(&bitmap::read(file)?).iter().flatten() {
+        let mut middles = Vec::new();
+        for (&a, &b) in ring.iter().zip(ring.iter().cycle().skip(1)) {
+            let length = (b - a).norm();
+            let step = (b - a) * (1.0 / length);
+            middles.extend((0..length as u32).map(|k| a + step * (f64::from(k) + 0.5)));
+        }
+        for (&a, &b) in middles.iter().zip(middles.iter().cycle().skip(1)) {
+            samples.extend([a, (a + b) * 0.5]);
+        }
+    }
+    Ok(samples)
+}
+
+/// Triangulates the samples of a bitmap by turns, and prints as JSON how many there are and the median
+/// nanoseconds a sample.
+fn delaunay(file: &str) -> Result<(), Error> {
+    let samples = samples(file)?;
+    let points: Vec<Point2<f64>> = samples.iter().map(|p| Point2::new(p.x, p.y)).collect();
+    let plain: Vec<delaunator::Point> =
+        samples.iter().map(|p| delaunator::Point { x: p.x, y: p.y }).collect();
+    let medial = || Delaunay::new(&samples).map_or(0, |triangles| triangles.n_faces() as usize);
+    let incremental = || {
+        let mut triangulation = DelaunayTriangulation::<Point2<f64>>::new();
+        points.iter().filter(|&&point| triangulation.insert(point).is_err()).count();
+        triangulation.num_inner_faces()
+    };
+    let bounds = samples.iter().fold(Rect::EMPTY, |all, &p| all.with(p));
+    let mut sorted = samples.clone();
+    sorted.sort_by_cached_key(|&p| hilbert(&bounds, p));
+    let sorted: Vec<Point2<f64>> = sorted.iter().map(|p| Point2::new(p.x, p.y)).collect();
+    let along_curve = || {
+        let mut triangulation = DelaunayTriangulation::<Point2<f64>>::new();
+        sorted.iter().filter(|&&point| triangulation.insert(point).is_err()).count();
+        triangulation.num_inner_faces()
+    };
+    let bulk = || {
+        let triangulation = DelaunayTriangulation::<Point2<f64>>::bulk_load(points.clone());
+        triangulation.map_or(0, |triangulation| triangulation.num_inner_faces())
+    };
+    let sweep = || delaunator::triangulate(&plain).len();
+    let runs: [(&str, &dyn Fn() -> usize); 5] = [
+        ("medial", &medial),
+        ("spade", &incremental),
+        ("spade_hilbert", &along_curve),
+        ("spade_bulk", &bulk),
+        ("delaunator", &sweep),
+    ];
+    let mut times = [const { Vec::new() }; 5];
+    let begun = ThreadTime::now();
+    while times[0].len() < 3 || begun.elapsed().as_secs_f64() < 3.0 {
+        for ((_, run), times) in runs.iter().zip(&mut times) {
+            let start = ThreadTime::now();
+            hint::black_box(run());
+            times.push(start.elapsed().as_nanos() as f64 / samples.len() as f64);
+        }
+    }
+    let medians = runs.iter().zip(&mut times).map(|((name, _), times)| {
+        times.sort_by(f64::total_cmp);
+        format!("\"{name}\": {:.0}", times[times.len() / 2])
+    });
+    println!("{{\"samples\": {}, {}}}", samples.len(), medians.collect::<Vec<_>>().join(", "));
     Ok(())
 }
 

@@ -55,11 +55,11 @@ impl Comparison {
             [] => Engine::ALL
                 .iter()
                 .copied()
-                .filter(|e| side == Side::Interior || e.is_exact())
+                .filter(|e| side == Side::Interior || e.is_exact() || *e == Engine::DelaunayDual)
                 .collect(),
             named => named.to_vec(),
         };
-        let options = &Options { cell: args.cell, ..*options };
+        let options = &Options { cell: args.cell, spacing: args.spacing, ..*options };
         for (k, &engine) in all.iter().enumerate() {
             // One that is named twice runs once.
             if all[..k].contains(&engine) {

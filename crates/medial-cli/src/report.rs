@@ -108,6 +108,8 @@ impl Entry {
             EngineError::Cancelled => "cancelled",
             EngineError::TimeLimit => "time_limit",
             EngineError::Cells(_) => "cells",
+            EngineError::Spacing { .. } | EngineError::Samples { .. } => "spacing",
+            EngineError::Crowded { .. } => "crowded",
             EngineError::NoExterior { .. } => "no_exterior",
             EngineError::NoMask { .. } => "no_mask",
             _ => "internal",

@@ -94,7 +94,7 @@ fn engines_can_be_chosen() {
     let engines: Vec<&str> =
         run.text().lines().skip(1).map(|line| line.split(',').nth(4).unwrap()).collect();
     assert_eq!(engines, ["divide_and_conquer", "path_tracing"]);
-    let run = medial_with(&["compare", "-", "--engine", "delaunay_dual"], RECTANGLE);
+    let run = medial_with(&["compare", "-", "--engine", "delaunay_duel"], RECTANGLE);
     assert_eq!((run.status, run.out.len()), (Some(2), 0));
 }
 

@@ -107,6 +107,7 @@ impl CompressArgs {
             Some(Prune::Below(measure, _)) if measure != Measure::Chord => {
                 usage("cells of images are pruned by chord=VALUE or none")
             }
+            Some(Prune::Leaves) => usage("cells of images are pruned by chord=VALUE or none"),
             _ if self.coverage.is_some()
                 && !matches!(method, MaskMethod::Cover | MaskMethod::Squares) =>
             {
@@ -119,7 +120,7 @@ impl CompressArgs {
     /// How cells of a size become few numbers.
     pub fn mask_options(&self, cell: f64) -> MaskOptions {
         let residual = match self.prune {
-            Some(Prune::Nothing) => None,
+            Some(Prune::Nothing | Prune::Leaves) => None,
             Some(Prune::Below(_, value)) => Some(value / cell),
             None => Options::default().residual,
         };

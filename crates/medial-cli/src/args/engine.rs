@@ -10,7 +10,7 @@ use std::num::NonZeroU32;
 #[derive(Debug, Args)]
 pub struct ChosenEngine {
     /// Who computes the axis: path_tracing, divide_and_conquer, raster_transform, ridge_following,
-    /// brushfire; by default path_tracing for polygons, raster_transform for images
+    /// brushfire, delaunay_dual; by default path_tracing for polygons, raster_transform for images
     #[arg(long, value_name = "NAME", value_parser = engine)]
     pub engine: Option<Engine>,
     /// The size of cells into which polygons are put by engines that sample, in units of the input; by
@@ -21,6 +21,18 @@ pub struct ChosenEngine {
     /// default all of them, or of images above 67 megapixels so many that they are 17
     #[arg(long, value_name = "ROWS")]
     pub band_rows: Option<NonZeroU32>,
+    /// The largest distance between samples of the boundary that delaunay_dual takes, in units of the input; by
+    /// default a thousandth of the longer side of the feature's box, and half the side of a pixel for images
+    #[arg(long, value_name = "D", value_parser = positive, allow_negative_numbers = true)]
+    pub spacing: Option<f64>,
+    /// The width of a Gaussian along the outline of an image by which delaunay_dual smooths it, in pixels; samples move
+    /// by 0.35 pixels at most
+    #[arg(long, value_name = "SIGMA", value_parser = positive, allow_negative_numbers = true)]
+    pub smooth_border: Option<f64>,
+    /// Let delaunay_dual draw the border back to where hairs begin: what lies behind branches with a chord residual of
+    /// no more than this, in units of the input, becomes arcs
+    #[arg(long, value_name = "V", value_parser = positive, allow_negative_numbers = true)]
+    pub retract: Option<f64>,
     /// How ridge_following finds the two nearest elements: tree, sorted (as in the report), six_vertices (which
     /// may miss one)
     #[arg(long, value_name = "NAME", value_parser = named::<RidgeSearch>)]
@@ -37,7 +49,10 @@ pub struct ChosenEngine {
 impl ChosenEngine {
     /// Fails if something is said to an engine that another one would listen to.
     pub fn check(&self) -> Result<(), Failure> {
-        let others: [(&str, bool, Engine); 3] = [
+        let others: [(&str, bool, Engine); 6] = [
+            ("--smooth-border", self.smooth_border.is_some(), Engine::DelaunayDual),
+            ("--retract", self.retract.is_some(), Engine::DelaunayDual),
+            ("--spacing", self.spacing.is_some(), Engine::DelaunayDual),
             ("--search", self.search.is_some(), Engine::RidgeFollowing),
             ("--thinning", self.thinning.is_some(), Engine::RidgeFollowing),
             ("--burning", self.burning.is_some(), Engine::Brushfire),
@@ -72,9 +87,5 @@ pub fn engine_for(feature: &Feature, asked: Option<Engine>) -> Engine {
 }
 
 pub(super) fn engine(word: &str) -> Result<Engine, String> {
-    const LATER: [&str; 1] = ["delaunay_dual"];
-    if LATER.contains(&word.replace('-', "_").as_str()) {
-        return Err(format!("this build has no engine {word} yet; use path_tracing"));
-    }
     named(word)
 }

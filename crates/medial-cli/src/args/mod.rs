@@ -373,13 +373,17 @@ pub struct CompareArgs {
     #[arg(long, value_name = "FORM")]
     pub to: Option<Rows>,
     /// Engines to compare, separated by commas: path_tracing, divide_and_conquer, raster_transform,
-    /// ridge_following, brushfire; by default all that know the side
+    /// ridge_following, brushfire, delaunay_dual; by default all that know the side
     #[arg(long, value_name = "NAMES", value_delimiter = ',', value_parser = engine)]
     pub engine: Vec<Engine>,
     /// The size of cells of engines that sample, in units of the input; by default a thousandth of the longer
     /// side of the feature's box
     #[arg(long, value_name = "SIZE", value_parser = positive, allow_negative_numbers = true)]
     pub cell: Option<f64>,
+    /// The largest distance between samples of delaunay_dual, in units of the input; by default a thousandth of the
+    /// longer side of the feature's box
+    #[arg(long, value_name = "D", value_parser = positive, allow_negative_numbers = true)]
+    pub spacing: Option<f64>,
     #[command(flatten)]
     pub region: Region,
     #[command(flatten)]

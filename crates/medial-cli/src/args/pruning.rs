@@ -1,7 +1,8 @@
-use super::{measure, not_negative};
+use super::{ChosenEngine, measure, not_negative};
+use crate::failure::Failure;
 use clap::Args;
 use medial::axis::Engine;
-use medial::engine;
+use medial::engine::{self, DualPruning};
 use medial::ops::{Hierarchy, Measure, Pruned};
 use medial_io::Feature;
 
@@ -13,7 +14,7 @@ pub struct Pruning {
     /// half_chord, radius, scale
     ///
     /// Images are pruned by chord=2 cells if nothing else is said; `none` keeps what their disks need to be
-    /// the image again
+    /// the image again, and of delaunay_dual everything; `leaf`, for delaunay_dual, removes leaves of one triangle
     #[arg(long, value_name = "MEASURE=VALUE", value_parser = prune, conflicts_with = "max_error")]
     pub prune: Option<Prune>,
     /// Remove branches for as long as the boundary moves by less than this, in units of the input:
@@ -26,6 +27,15 @@ pub struct Pruning {
 }
 
 impl Pruning {
+    /// Fails if leaves of triangles are to go from an engine that has none.
+    pub fn check(&self, chosen: &ChosenEngine) -> Result<(), Failure> {
+        if self.prune == Some(Prune::Leaves) && chosen.engine != Some(Engine::DelaunayDual) {
+            let why = "--prune leaf is for --engine delaunay_dual";
+            return Err(Failure::Usage(why.to_owned()));
+        }
+        Ok(())
+    }
+
     /// Whether anything may go of what an engine found for a feature.
     pub fn removes(&self, feature: &Feature, engine: Engine) -> bool {
         let curves = feature.curves.is_some() && engine.is_exact() && !self.keep_artefacts;
@@ -47,11 +57,25 @@ impl Pruning {
         }
     }
 
+    /// What leaves a dual graph of a feature by itself; the rest of pruning is done by [`rest`](Self::rest).
+    pub fn of_dual(&self, feature: &Feature, cell: f64) -> DualPruning {
+        match self.prune {
+            Some(Prune::Nothing) => DualPruning::Nothing,
+            Some(Prune::Leaves) => DualPruning::Leaves,
+            Some(Prune::Below(Measure::Chord, value)) => DualPruning::Chord(value),
+            _ if feature.mask.is_none() => DualPruning::Nothing,
+            _ => match self.residual(cell) {
+                Some(residual) => DualPruning::Chord(residual * cell),
+                None => DualPruning::Nothing,
+            },
+        }
+    }
+
     /// The measure and the value below which points are removed, if any are.
     pub fn threshold(&self) -> Option<(Measure, f64)> {
         match self.prune {
             Some(Prune::Below(measure, value)) => Some((measure, value)),
-            Some(Prune::Nothing) => None,
+            Some(Prune::Nothing | Prune::Leaves) => None,
             None => self.max_error.map(|error| (Measure::Excess, error)),
         }
     }
@@ -77,6 +101,8 @@ impl Pruning {
 pub enum Prune {
     /// Remove nothing.
     Nothing,
+    /// Remove leaves of one triangle.
+    Leaves,
     /// Remove what lies below a value of a measure.
     Below(Measure, f64),
 }
@@ -84,6 +110,9 @@ pub enum Prune {
 pub(super) fn prune(word: &str) -> Result<Prune, String> {
     if word == "none" {
         return Ok(Prune::Nothing);
+    }
+    if word == "leaf" {
+        return Ok(Prune::Leaves);
     }
     threshold(word).map(|(measure, value)| Prune::Below(measure, value))
 }

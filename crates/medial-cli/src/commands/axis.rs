@@ -9,8 +9,8 @@ use crate::timings::timed;
 use medial::axis::{Engine, Joining, MedialAxis, Side};
 use medial::domain::Domain;
 use medial::engine::{
-    self, EngineError, RidgeOptions, both_sides, brushfire, brushfire_of_domain, exterior,
-    interior, of_mask, ridge_following, ridge_following_of_mask,
+    self, DelaunayDual, EngineError, RidgeOptions, both_sides, brushfire, brushfire_of_domain,
+    exterior, interior, of_mask, ridge_following, ridge_following_of_mask,
 };
 use medial::ops::{Hierarchy, Significance};
 use medial::raster::default_cell;
@@ -38,6 +38,7 @@ pub fn run(args: &'static AxisArgs) -> Result<Status, Failure> {
 fn run_on(args: &'static AxisArgs, documents: Documents) -> Result<Status, Failure> {
     args.region.check()?;
     args.engine.check()?;
+    args.pruning.check(&args.engine)?;
     if let Some(nodes) = args.nodes.as_deref() {
         let others = [&args.output, &args.common.report, &args.common.timings];
         if nodes.as_os_str() == "-"
@@ -200,11 +201,40 @@ pub fn traced(
         (_, cell) => cell.unwrap_or_else(|| default_cell(domain)),
     };
     let residual = pruning.residual(cell);
-    let band_rows = chosen.band_rows.map(NonZeroU32::get);
-    let options = engine::Options { cell: Some(cell), residual, band_rows, ..*options };
+    let (spacing, band_rows) = (chosen.spacing, chosen.band_rows.map(NonZeroU32::get));
+    let options = engine::Options { cell: Some(cell), spacing, residual, band_rows, ..*options };
     let sides = region.side.all().iter();
+    if engine == Engine::DelaunayDual {
+        let pruning = pruning.of_dual(feature, cell);
+        let axis = |&side| dual(chosen, region, side, feature, domain, &options)?.axis(pruning);
+        return sides
+            .map(axis)
+            .collect::<Result<_, _>>()
+            .map_err(|error| Entry::unfinished(&error));
+    }
     let axis = |&side| sampled(chosen, region, side, feature, domain, engine, &options);
     sides.map(axis).collect::<Result<_, _>>().map_err(|error| Entry::unfinished(&error))
+}
+
+/// The dual graph of a feature on a side.
+fn dual<'a>(
+    chosen: &ChosenEngine,
+    region: &Region,
+    side: Side,
+    feature: &'a Feature,
+    domain: &'a Domain,
+    options: &engine::Options<'_>,
+) -> Result<DelaunayDual<'a>, EngineError> {
+    let width = chosen.smooth_border.unwrap_or(0.0);
+    let dual = match (&feature.mask, side) {
+        (_, Side::Exterior) => DelaunayDual::outside(domain, region.frame, options),
+        (Some(mask), _) => DelaunayDual::of_smoothed_mask(mask, width, options),
+        (None, _) => DelaunayDual::new(domain, options),
+    }?;
+    match chosen.retract {
+        Some(residual) => dual.retracted(residual, options),
+        None => Ok(dual),
+    }
 }
 
 /// The axis on a side by an engine on cells.

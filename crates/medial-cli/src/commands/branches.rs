@@ -62,6 +62,7 @@ const LIMB: (Measure, f64) = (Measure::RelativeExcess, 0.5);
 pub fn run(args: &'static BranchesArgs) -> Result<Status, Failure> {
     args.region.check()?;
     args.engine.check()?;
+    args.pruning.check(&args.engine)?;
     if let Some(other) = &args.matching {
         return pairs(args, other);
     }

@@ -20,6 +20,8 @@ pub enum Engine {
     RidgeFollowing,
     /// Burning of cells layer by layer: sampled.
     Brushfire,
+    /// The dual of the Delaunay graph of samples of the boundary: sampled, with the topology of the shape.
+    DelaunayDual,
 }
 
 impl Engine {

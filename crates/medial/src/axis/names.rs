@@ -55,7 +55,7 @@ names!(
     Engine, "engine",
     PathTracing => "path_tracing", DivideAndConquer => "divide_and_conquer",
     RasterTransform => "raster_transform", RidgeFollowing => "ridge_following",
-    Brushfire => "brushfire",
+    Brushfire => "brushfire", DelaunayDual => "delaunay_dual",
 );
 names!(Side, "side", Interior => "interior", Exterior => "exterior");
 names!(CurveKind, "curve", Line => "line", Parabola => "parabola", Polyline => "polyline");

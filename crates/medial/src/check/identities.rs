@@ -68,11 +68,12 @@ pub(super) fn identities(context: &Context, counts: &Counts) -> Vec<Identity> {
     let (w, c) = (counts.walks as i64, counts.components as i64);
     let (w, c) = match context.axis.accuracy {
         Accuracy::Exact => (w, c),
-        Accuracy::Sampled(_) => seen_by_samples(context, counts).unwrap_or((w, c)),
+        Accuracy::Sampled(_) => through_corners(context, counts)
+            .or_else(|| seen_by_samples(context, counts))
+            .unwrap_or((w, c)),
     };
     let (outside, h) = (i64::from(context.horizon.is_some()), context.n_gaps() as i64);
-    // What is convex has no axis outside.
-    let without = i64::from(outside == 1 && h == 0);
+    let without = n_without(context) as i64;
     let topology = [
         equal("cycles", w - c, counts.cycles as i64),
         equal("components of the axis", c - without, counts.axis_components as i64),
@@ -137,9 +138,39 @@ fn seen_by_samples(context: &Context, counts: &Counts) -> Option<(i64, i64)> {
     let differs = components != counts.components || shared > 0;
     let fits = counts.axis_components == components;
     // Or they may not, and then all is as it is for an exact axis.
-    let is_as_told = counts.axis_components == counts.components
+    let is_as_told = counts.axis_components + n_without(context) == counts.components
         && counts.cycles + counts.components == counts.walks;
     (differs && fits && !is_as_told).then_some((components as i64 + holes, components as i64))
+}
+
+/// How many components have no axis: the outside of what is convex.
+fn n_without(context: &Context) -> usize {
+    usize::from(context.horizon.is_some() && context.n_gaps() == 0)
+}
+
+/// Walks and components if parts are one that touch in points with a corner of less than half a turn each, where the
+/// axis has as many components and cycles: it may go through such a point from one corner to the other.
+fn through_corners(context: &Context, counts: &Counts) -> Option<(i64, i64)> {
+    let domain = context.domain;
+    let mut corners: Vec<(Point, u32)> = context
+        .walks()
+        .flat_map(|(_, walk)| walk.edges().map(|edge| (edge, walk.component)))
+        .filter(|&(edge, _)| domain.edge(edge).corner == Corner::Convex)
+        .map(|(edge, component)| (domain.edge(edge).start, component))
+        .collect();
+    corners.sort_by_key(|(p, _)| (order_key(p.x), order_key(p.y)));
+    let mut groups = Groups::new(domain.n_components());
+    let mut shared = 0;
+    for pair in corners.windows(2).filter(|pair| pair[0].0 == pair[1].0) {
+        shared += 1;
+        groups.join(pair[0].1, pair[1].1);
+    }
+    // Each of these points joins components or closes a cycle.
+    let components = groups.count() as i64;
+    let cycles = (counts.walks as i64 - 2 * counts.components as i64) + shared + components;
+    let found = (counts.axis_components + n_without(context)) as i64;
+    let fits = found == components && counts.cycles as i64 == cycles;
+    (shared > 0 && fits).then_some((components + cycles, components))
 }
 
 /// Joints of sites whose common normal goes to infinity, at the ends of edges on the hull.

@@ -34,6 +34,31 @@ pub enum EngineError {
     /// The domain cannot be put into cells of that size.
     #[error(transparent)]
     Cells(#[from] DigitiseError),
+    /// The boundary cannot be sampled at that distance.
+    #[error("samples {spacing} apart are none; give a distance above 0")]
+    Spacing {
+        /// The distance between samples.
+        spacing: f64,
+    },
+    /// There would be too many samples.
+    #[error(
+        "samples {spacing} apart are {samples:.0}, and at most 100 million can be; give a larger distance"
+    )]
+    Samples {
+        /// How many there would be.
+        samples: f64,
+        /// The distance between them.
+        spacing: f64,
+    },
+    /// The boundary is nearer to itself than rounded samples are to it.
+    #[error(
+        "near ({}, {}) the boundary is nearer to itself than doubles can tell samples apart; use path_tracing",
+        place.x, place.y
+    )]
+    Crowded {
+        /// Where.
+        place: Point,
+    },
     /// The engine has no axis of the outside.
     #[error("{engine} finds no axis outside of polygons; use path_tracing")]
     NoExterior {

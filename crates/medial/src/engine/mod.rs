@@ -2,6 +2,7 @@
 //! [`MedialAxis`](crate::axis::MedialAxis).
 
 mod brushfire;
+mod delaunay_dual;
 mod divide_and_conquer;
 mod draft;
 mod error;
@@ -15,6 +16,10 @@ mod threads;
 mod watch;
 
 pub use brushfire::{Burning, Burnt, brushfire, brushfire_of_domain};
+pub use delaunay_dual::{
+    Border, DelaunayDual, DualKind, DualNode, DualPruning, Sampling, border, crust, delaunay_dual,
+    delaunay_dual_of_mask, two_step_crust,
+};
 pub use divide_and_conquer::{
     ArcEnd, Chain, ChainArc, ChainElement, ChainMerge, Work, chain_diagram, chain_merge,
     divide_and_conquer, divide_and_conquer_counted, divide_and_conquer_with,

@@ -36,6 +36,9 @@ pub struct Options<'a> {
     /// default all, or of masks above 2^26 cells about 2^24. Which cells are above the residual, and how all
     /// hang together, does not depend on it; which others hold them together may.
     pub band_rows: Option<u32>,
+    /// The largest distance between samples of the boundary, in units of the input, for engines that sample it; by
+    /// default [`default_cell`](crate::raster::default_cell) for domains and half the side of a cell for masks.
+    pub spacing: Option<f64>,
     /// The chord residual, in cells, above which [`raster_transform`](super::raster_transform) takes cells
     /// for medial; without one, as many are as it takes for their disks to be the mask again.
     pub residual: Option<f64>,
@@ -54,6 +57,7 @@ impl Default for Options<'_> {
             alone_below: 10_000,
             cell: None,
             band_rows: None,
+            spacing: None,
             residual: Some(DEFAULT_RESIDUAL),
         }
     }

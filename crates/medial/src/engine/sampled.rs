@@ -89,17 +89,29 @@ impl Boundary for OutlineBoundary<'_> {
     }
 
     fn record(&self, element: u32) -> axis::Site {
-        let edge = &self.cracks.edges[element as usize];
-        let contour = &self.cracks.contours[edge.contour as usize];
-        let grid = self.mask.grid();
-        let ends = [edge.from, self.cracks.end_of(element)];
-        let [from, to] = ends.map(|[column, row]| grid.corner(column, row));
-        // The shape is to the left as long as rows go up when columns go to the right.
-        let (a, b) = if grid.is_mirrored() { (to, from) } else { (from, to) };
-        let index = element - contour.first;
-        let site = axis::Site::edge(a, b);
-        axis::Site { polygon: contour.polygon, ring: contour.ring, index, ..site }
+        outline_record(self.cracks, self.mask.grid(), element)
     }
+}
+
+/// An element of the outside of a domain as an axis lists it.
+pub(super) fn outside_record(outside: &Domain, site: Site) -> axis::Site {
+    let mut record = site_record(outside, site);
+    // Edges have the interior of the polygons to their left, whatever the side.
+    std::mem::swap(&mut record.a, &mut record.b);
+    record
+}
+
+/// An edge of an outline as an axis lists it.
+pub(super) fn outline_record(cracks: &Cracks, grid: &Grid, element: u32) -> axis::Site {
+    let edge = &cracks.edges[element as usize];
+    let contour = &cracks.contours[edge.contour as usize];
+    let ends = [edge.from, cracks.end_of(element)];
+    let [from, to] = ends.map(|[column, row]| grid.corner(column, row));
+    // The shape is to the left as long as rows go up when columns go to the right.
+    let (a, b) = if grid.is_mirrored() { (to, from) } else { (from, to) };
+    let index = element - contour.first;
+    let site = axis::Site::edge(a, b);
+    axis::Site { polygon: contour.polygon, ring: contour.ring, index, ..site }
 }
 
 /// What an engine has left of the cells of a mask, with their distances.
@@ -240,12 +252,10 @@ impl Boundary for DomainBoundary<'_> {
     }
 
     fn record(&self, element: u32) -> axis::Site {
-        let mut record = site_record(self.domain, Site(element));
-        if self.side == Side::Exterior {
-            // Edges have the interior of the polygons to their left, whatever the side.
-            std::mem::swap(&mut record.a, &mut record.b);
+        match self.side {
+            Side::Interior => site_record(self.domain, Site(element)),
+            Side::Exterior => outside_record(self.domain, Site(element)),
         }
-        record
     }
 }
 

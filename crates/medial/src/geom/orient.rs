@@ -23,6 +23,24 @@ pub fn orient2d(a: Point, b: Point, c: Point) -> f64 {
     robust::orient2d(coord(a), coord(b), coord(c))
 }
 
+/// Where `d` lies to the circle through `a`, `b` and `c`, which follow one another counterclockwise: positive
+/// inside, 0 on it; the sign is exact.
+///
+/// Exact as long as no product of four differences underflows or overflows.
+///
+/// ```
+/// use medial::geom::{Point, in_circle};
+/// let [a, b, c] = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0)].map(|(x, y)| Point::new(x, y));
+/// assert_eq!(in_circle(a, b, c, Point::new(0.0, 1.0)), 0.0);
+/// assert!(in_circle(a, b, c, Point::new(0.0, 1.0_f64.next_down())) > 0.0);
+/// ```
+#[inline]
+#[must_use]
+pub fn in_circle(a: Point, b: Point, c: Point, d: Point) -> f64 {
+    let coord = |p: Point| robust::Coord { x: p.x, y: p.y };
+    robust::incircle(coord(a), coord(b), coord(c), coord(d))
+}
+
 /// The turn from the direction `a` → `b` to the direction `c` → `d`: positive to the left, 0 if
 /// they are parallel; the sign is exact.
 ///

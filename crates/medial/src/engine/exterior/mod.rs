@@ -20,6 +20,7 @@
 mod cut;
 mod frame;
 
+use super::delaunay_dual::{self, delaunay_dual_of_mask};
 use super::divide_and_conquer::{self, divide_and_conquer_with};
 use super::draft::site_record;
 use super::{
@@ -50,6 +51,7 @@ pub fn interior(
             ridge_following(domain, &RidgeOptions::default(), options).map(|ridges| ridges.axis)
         }
         Engine::Brushfire => brushfire_of_domain(domain, Burning::default(), options),
+        Engine::DelaunayDual => delaunay_dual::delaunay_dual(domain, options),
     }
 }
 
@@ -67,6 +69,7 @@ pub fn of_mask(
         Engine::RidgeFollowing => ridge_following_of_mask(mask, &RidgeOptions::default(), options)
             .map(|ridges| ridges.axis),
         Engine::Brushfire => brushfire(mask, Burning::default(), options),
+        Engine::DelaunayDual => delaunay_dual_of_mask(mask, options),
         Engine::PathTracing | Engine::DivideAndConquer => Err(EngineError::NoMask { engine }),
     }
 }
@@ -108,6 +111,7 @@ pub fn exterior(
             let ridge = RidgeOptions { side: Side::Exterior, margin, ..RidgeOptions::default() };
             return ridge_following(domain, &ridge, options).map(|ridges| ridges.axis);
         }
+        Engine::DelaunayDual => return delaunay_dual::outside(domain, margin, options),
         Engine::RasterTransform | Engine::Brushfire => {
             return Err(EngineError::NoExterior { engine });
         }

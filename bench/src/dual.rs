@@ -1,0 +1,114 @@
+//! What `delaunay_dual` takes and gives on bitmaps and shapes, as JSON.
+
+use std::hint;
+
+use cpu_time::ThreadTime;
+use medial::axis::MedialAxis;
+use medial::check::difference;
+use medial::domain::{Domain, Options};
+use medial::engine::{self, DelaunayDual, DualPruning, path_tracing};
+use medial::geom::Point;
+use medial::raster::{Mask, outline, topology};
+
+use crate::bitmap;
+use crate::measure::Error;
+use crate::shapes;
+
+/// The chord residual of what is timed, in pixels.
+const RESIDUAL: f64 = 2.0;
+
+/// Times the axis of a bitmap at the default spacing, pruned by the chord residual, and tells how well its samples
+/// stand for its outline.
+pub fn bitmap(file: &str) -> Result<(), Error> {
+    let mask = bitmap::read(file)?;
+    let options = engine::Options::default();
+    let (mut graphs, mut axes) = (Vec::new(), Vec::new());
+    let begun = ThreadTime::now();
+    while graphs.len() < 3 || begun.elapsed().as_secs_f64() < 0.3 {
+        let start = ThreadTime::now();
+        let dual = DelaunayDual::of_mask(&mask, &options)?;
+        graphs.push(start.elapsed().as_nanos() as f64);
+        let start = ThreadTime::now();
+        hint::black_box(dual.axis(DualPruning::Chord(RESIDUAL))?);
+        axes.push(start.elapsed().as_nanos() as f64);
+    }
+    let median = |times: &mut Vec<f64>| {
+        times.sort_by(f64::total_cmp);
+        times[times.len() / 2]
+    };
+    let dual = DelaunayDual::of_mask(&mask, &options)?;
+    let axis = dual.axis(DualPruning::Chord(RESIDUAL))?;
+    let sampling = dual.sampling();
+    let n = sampling.n_samples.max(1) as f64;
+    println!(
+        "{{\"samples\": {}, \"missing\": {}, \"outside_crust\": {}, \"false_crust\": {}, \"sparse\": {}, \
+         \"graph_ns\": {:.1}, \"axis_ns\": {:.1}, \"broken\": {}, \"ends\": {}}}",
+        sampling.n_samples,
+        sampling.n_missing,
+        sampling.n_outside_crust,
+        sampling.n_false_crust,
+        sampling.n_sparse,
+        median(&mut graphs) / n,
+        median(&mut axes) / n,
+        components(&axis).abs_diff(topology(&mask).components as usize),
+        axis.degrees().iter().filter(|&&degree| degree == 1).count(),
+    );
+    Ok(())
+}
+
+fn components(axis: &MedialAxis) -> usize {
+    fn root(sets: &mut [u32], mut k: u32) -> u32 {
+        while sets[k as usize] != k {
+            sets[k as usize] = sets[sets[k as usize] as usize];
+            k = sets[k as usize];
+        }
+        k
+    }
+    let n = axis.keypoints().len();
+    let mut sets: Vec<u32> = (0..n as u32).collect();
+    let mut components = n;
+    for path in axis.paths() {
+        let (a, b) = (root(&mut sets, path.from), root(&mut sets, path.to));
+        if a != b {
+            sets[a as usize] = b;
+            components -= 1;
+        }
+    }
+    components
+}
+
+/// How far the axis is from the exact one as the spacing is halved, a line each; lengths are shares of the longer
+/// side of the box.
+pub fn spacing(shape: &str, edges: usize) -> Result<(), Error> {
+    let ring = |ring: shapes::Ring| ring.into_iter().map(|(x, y)| Point::new(x, y)).collect();
+    let rings = shapes::draw(shape, edges).ok_or("no such shape")?;
+    of_polygons(&[rings.into_iter().map(ring).collect()])
+}
+
+/// The same for the outline of a bitmap along the sides of its pixels.
+pub fn spacing_of_bitmap(file: &str) -> Result<(), Error> {
+    let mask: Mask = bitmap::read(file)?;
+    of_polygons(&outline(&mask))
+}
+
+fn of_polygons(polygons: &[Vec<Vec<Point>>]) -> Result<(), Error> {
+    let domain = Domain::from_polygons(polygons, &Options::default())?;
+    let exact = path_tracing(&domain)?;
+    let size = domain.bounds().max - domain.bounds().min;
+    let size = size.x.max(size.y);
+    for halvings in 0..8 {
+        let share = 0.02 * 0.5_f64.powi(halvings);
+        let options = engine::Options { spacing: Some(share * size), ..engine::Options::default() };
+        let dual = DelaunayDual::new(&domain, &options)?;
+        let found = difference(&exact, &dual.axis(DualPruning::Nothing)?);
+        let sampling = dual.sampling();
+        println!(
+            "{{\"spacing\": {share}, \"samples\": {}, \"outside_crust\": {}, \"distance\": {:e}, \"missed\": {:e}}}",
+            sampling.n_samples,
+            sampling.n_outside_crust,
+            found.distance / size,
+            found.missed / size,
+        );
+    }
+    Ok(())
+}
