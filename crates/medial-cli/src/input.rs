@@ -63,6 +63,11 @@ impl Input {
         Ok(Self { name, bytes })
     }
 
+    /// All of it.
+    pub fn bytes(&self) -> &[u8] {
+        &self.bytes
+    }
+
     pub fn text(&self) -> Result<&str, Failure> {
         medial_io::text(&self.bytes).map_err(|error| self.wrong(error))
     }

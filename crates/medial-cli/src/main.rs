@@ -51,5 +51,6 @@ fn run() -> Result<Status, Failure> {
         Command::Check(args) => commands::check::run(kept(args)),
         Command::Compare(args) => commands::compare::run(kept(args)),
         Command::Compress(args) => commands::compress::run(kept(args)),
+        Command::Segment(args) => commands::segment::run(kept(args)),
     }
 }

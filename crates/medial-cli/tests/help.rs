@@ -23,6 +23,7 @@ fn the_examples_of_every_command_work() {
         "check",
         "compare",
         "compress",
+        "segment",
     ] {
         let help = medial(&[command, "--help"]);
         assert_eq!((help.status, help.errors.as_str()), (Some(0), ""));

@@ -28,6 +28,8 @@ pub enum Format {
     Png,
     /// A raster image, with or without a place in the world.
     Tiff,
+    /// A photograph.
+    Jpeg,
     /// Bare JSON arrays `[[ring], [hole], …]`.
     Rings,
     /// The compressed axis.
@@ -59,6 +61,7 @@ const NAMES: &[(Format, &str, &[&str])] = &[
     (Format::Svg, "svg", &["svg"]),
     (Format::Png, "png", &["png"]),
     (Format::Tiff, "tiff", &["tiff", "tif"]),
+    (Format::Jpeg, "jpeg", &["jpg", "jpeg"]),
     (Format::Rings, "rings", &["rings"]),
     (Format::Maxis, "maxis", &["maxis"]),
     (Format::GCode, "gcode", &["gcode", "nc", "ngc", "tap"]),
@@ -200,8 +203,9 @@ fn of_table(bytes: &[u8]) -> Option<Format> {
 
 /// The format of an image that begins so.
 fn of_image(bytes: &[u8]) -> Option<Format> {
-    let starts: [(Format, &[u8]); 5] = [
+    let starts: [(Format, &[u8]); 6] = [
         (Format::Png, b"\x89PNG"),
+        (Format::Jpeg, b"\xff\xd8\xff"),
         (Format::Tiff, b"II*\0"),
         (Format::Tiff, b"MM\0*"),
         (Format::Tiff, b"II+\0"),

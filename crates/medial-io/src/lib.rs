@@ -97,7 +97,7 @@ pub fn read_with<'a>(
         Format::Svg => svg::read(text(&gzip::unpacked(bytes)?)?, options),
         Format::Dxf => dxf::read(bytes, options),
         Format::Ttf => font::read(bytes, options),
-        Format::Png | Format::Tiff => image::read(format, bytes, options),
+        Format::Png | Format::Tiff | Format::Jpeg => image::read(format, bytes, options),
         Format::GeoJson => geojson::read(text(bytes)?),
         Format::GeoJsonLines | Format::GeoJsonSeq => Ok(geojson::read_lines(text(bytes)?)),
         Format::Wkt => Ok(wkt::read(text(bytes)?)),

@@ -104,12 +104,12 @@ pub fn header(columns: &[&str]) -> String {
 }
 
 /// Appends records of one feature in a format, or in its [encoding](Format::encoding); GeoJSON features each behind a
-/// [`SEPARATOR`].
+/// [`SEPARATOR`]. No engine is named for what comes from none.
 pub fn write(
     out: &mut Vec<u8>,
     format: Format,
     source: &Feature,
-    engine: Engine,
+    engine: Option<Engine>,
     columns: &[&str],
     records: &[Record],
 ) {
@@ -122,7 +122,7 @@ pub fn write(
                 table.field(|text| wkt::shape(text, &record.shape));
                 table.whole(source.index);
                 table.field(|text| text.push_str(&csv::id_of(source)));
-                table.field(|text| text.push_str(engine.name()));
+                table.field(|text| text.push_str(engine.map_or("", Engine::name)));
                 for value in &record.values {
                     table.field(|text| plain(text, value));
                 }
@@ -163,7 +163,7 @@ fn plain(out: &mut String, value: &Value) {
 fn geojson(
     out: &mut Vec<u8>,
     source: &Feature,
-    engine: Engine,
+    engine: Option<Engine>,
     columns: &[&str],
     records: &[Record],
     [before, after]: [&[u8]; 2],
@@ -267,7 +267,7 @@ mod tests {
         let record = Record { values, shape: Shape::Polygons(polygons) };
         let mut out = Vec::new();
         let columns = ["share", "most", "name"];
-        write(&mut out, format, &source, Engine::PathTracing, &columns, &[record]);
+        write(&mut out, format, &source, Some(Engine::PathTracing), &columns, &[record]);
         out
     }
 

@@ -6,6 +6,7 @@ mod compress;
 mod engine;
 mod offset;
 mod pruning;
+mod segment;
 mod walls;
 
 pub use axis::{AxisArgs, Line};
@@ -16,6 +17,7 @@ pub use compress::CompressArgs;
 pub use engine::{ChosenEngine, engine_for};
 pub use offset::OffsetArgs;
 pub use pruning::{Prune, Pruning};
+pub use segment::{Method as SegmentMethod, SegmentArgs};
 pub use walls::WallsArgs;
 
 use crate::failure::{Failure, Status};
@@ -83,6 +85,8 @@ pub enum Command {
     Compare(CompareArgs),
     /// Write polygons or images as few disks of their axes, within an error, or without any
     Compress(CompressArgs),
+    /// Part colour images into regions, as polygons
+    Segment(SegmentArgs),
 }
 
 /// Where results go.

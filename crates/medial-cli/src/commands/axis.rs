@@ -331,7 +331,7 @@ fn output_format(args: &AxisArgs) -> Result<Format, Failure> {
     if format == Format::Rings {
         return usage("rings hold polygons, no axes; see --to in --help".to_owned());
     }
-    if matches!(format, Format::Ttf | Format::Tiff) {
+    if matches!(format, Format::Ttf | Format::Tiff | Format::Jpeg) {
         return usage(format!("{format} is read only; see --to in --help"));
     }
     if format == Format::Maxis {

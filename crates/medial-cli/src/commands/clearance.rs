@@ -147,7 +147,7 @@ fn together(args: &'static ClearanceArgs, mut run: Run) -> Result<Status, Failur
             Ok(timed(&mut stages.write, || {
                 let mut bytes = Vec::new();
                 let whole = Feature::default();
-                record::write(&mut bytes, format, &whole, args.engine, COLUMNS, &records);
+                record::write(&mut bytes, format, &whole, Some(args.engine), COLUMNS, &records);
                 bytes
             }))
         },

@@ -24,7 +24,7 @@ pub fn run(args: &'static CompressArgs) -> Result<Status, Failure> {
     let file = args.output.as_deref().filter(|path| path.as_os_str() != "-");
     check_output(file)?;
     let input = run.open_with(&args.input, Documents::AsPolygons)?;
-    let as_cells = args.as_cells(matches!(input.format, Format::Png | Format::Tiff));
+    let as_cells = args.as_cells(matches!(input.format, Format::Png | Format::Tiff | Format::Jpeg));
     args.check(as_cells)?;
     let layer = timed(&mut run.stages.read, || input.layer())?;
     let crs = layer.crs.as_ref().and_then(Crs::member);

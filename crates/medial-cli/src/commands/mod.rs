@@ -11,6 +11,7 @@ pub mod locate;
 pub mod offset;
 pub mod reconstruct;
 mod records;
+pub mod segment;
 mod sink;
 pub mod smooth;
 pub mod voronoi;

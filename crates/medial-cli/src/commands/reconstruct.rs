@@ -119,7 +119,7 @@ fn of_masks(
         let source = Feature { index: *feature, id: id.clone(), ..Feature::default() };
         let mut bytes = Vec::new();
         let engine = Engine::RasterTransform;
-        record::write(&mut bytes, format, &source, engine, COLUMNS, &[record]);
+        record::write(&mut bytes, format, &source, Some(engine), COLUMNS, &[record]);
         sink.write(&bytes)?;
     }
     sink.finish(&[])?;
@@ -145,7 +145,7 @@ fn of_documents(args: &ReconstructArgs, plan: &Plan, input: &Input) -> Result<St
                     Feature { index: document.feature, id: document.id, ..Feature::default() };
                 let mut bytes = Vec::new();
                 let engine = document.axis.engine;
-                record::write(&mut bytes, format, &source, engine, COLUMNS, &[record]);
+                record::write(&mut bytes, format, &source, Some(engine), COLUMNS, &[record]);
                 sink.write(&bytes)?;
                 done += 1;
             }

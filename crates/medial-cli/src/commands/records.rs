@@ -143,7 +143,7 @@ impl Plan {
                     Found::Part(part) => return Ok(Some(part)),
                 };
                 timed(&mut stages.write, || {
-                    let engine = engine_for(feature, engine);
+                    let engine = Some(engine_for(feature, engine));
                     record::write(bytes, format, feature, engine, columns, &records);
                 });
                 Ok(None)

@@ -46,7 +46,7 @@ fn write(
     [before, after]: [&[u8]; 2],
 ) {
     let ours = |name: &str| COMMON.contains(&name) || OURS.contains(&name);
-    let common = beginning(source, engine, ours, before);
+    let common = beginning(source, Some(engine), ours, before);
     for ((rank, line), points) in (1..).zip(lines).zip(drawn) {
         out.extend_from_slice(&common);
         // Memory takes all that is written.

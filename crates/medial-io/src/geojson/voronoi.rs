@@ -57,7 +57,7 @@ fn write(
 ) {
     let Some(engine) = voronoi.axes().next().map(|axis| axis.engine) else { return };
     let ours = |name: &str| COMMON.contains(&name) || OURS.contains(&name);
-    let common = beginning(source, engine, ours, before);
+    let common = beginning(source, Some(engine), ours, before);
     let tolerance = tolerance.unwrap_or_else(|| domain_tolerance(voronoi.domain()));
     for cell in voronoi.cells() {
         out.extend_from_slice(&common);

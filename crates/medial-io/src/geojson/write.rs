@@ -69,7 +69,7 @@ fn write(
     let drawing = Drawing { keypoints: degrees.iter().any(is_written), ..drawing };
     let columns: Vec<_> = measured.iter().flat_map(measure_columns).collect();
     let ours = |name: &str| is_ours(name, drawing) || columns.iter().any(|ours| ours == name);
-    let mut common = beginning(source, axis.engine, ours, before);
+    let mut common = beginning(source, Some(axis.engine), ours, before);
     if drawing.side {
         common.extend_from_slice(b"\"side\":\"");
         common.extend_from_slice(axis.side.name().as_bytes());
@@ -204,7 +204,7 @@ impl Places {
 /// renamed where the name `is_ours`, then `feature`, `source_id` and `engine`. Ends with a comma.
 pub(crate) fn beginning(
     source: &Feature,
-    engine: Engine,
+    engine: Option<Engine>,
     is_ours: impl Fn(&str) -> bool,
     before: &[u8],
 ) -> Vec<u8> {
@@ -233,9 +233,12 @@ pub(crate) fn beginning(
         Some(id) => out.extend_from_slice(compact(id).as_bytes()),
         None => out.extend_from_slice(b"null"),
     }
-    out.extend_from_slice(b",\"engine\":\"");
-    out.extend_from_slice(engine.name().as_bytes());
-    out.extend_from_slice(b"\",");
+    if let Some(engine) = engine {
+        out.extend_from_slice(b",\"engine\":\"");
+        out.extend_from_slice(engine.name().as_bytes());
+        out.push(b'"');
+    }
+    out.push(b',');
     out
 }
 

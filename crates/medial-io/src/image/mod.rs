@@ -13,11 +13,12 @@
 //! Coordinates are those of the georeference. Without one they are pixels from the upper left
 //! corner, x to the right and y upwards, so that y is the negative of rows, as with drawings.
 
+mod jpeg;
 mod png;
 mod tiff;
 mod write;
 
-pub use write::write_png;
+pub use write::{write_colours, write_labels, write_png};
 
 use crate::{Crs, Error, Feature, Format, Layer, ReadOptions};
 use medial::geom::Point;
@@ -25,13 +26,28 @@ use medial::raster::{Grid, Mask, outline};
 use std::ops::Range;
 use std::sync::Arc;
 
-/// An image of one value a pixel, which is decoded some rows after the others.
+/// An image, which is decoded some rows after the others.
 trait Image {
     fn header(&self) -> &Header;
 
     /// Decodes all rows: gives the number of the first one and the values of some whole ones, not a number
     /// where there is no data.
-    fn decode(self: Box<Self>, take: &mut dyn FnMut(u32, Values)) -> Result<(), Error>;
+    fn decode(
+        self: Box<Self>,
+        wanted: Wanted<'_>,
+        take: &mut dyn FnMut(u32, Values),
+    ) -> Result<(), Error>;
+}
+
+/// What is wanted of each pixel.
+#[derive(Clone, Copy)]
+enum Wanted<'a> {
+    /// One value: that of the only band, or the brightness.
+    Value,
+    /// Red, green and blue, from 0 to 1.
+    Colour,
+    /// Up to three bands as they are, by their numbers from 0.
+    Bands(&'a [usize]),
 }
 
 /// What an image says of itself.
@@ -40,6 +56,10 @@ struct Header {
     columns: u32,
     rows: u32,
     place: Option<Place>,
+    /// Samples of a pixel, but for transparency.
+    n_bands: usize,
+    /// Whether these are a colour, or grey.
+    is_colour: bool,
 }
 
 /// Values of pixels.
@@ -49,6 +69,8 @@ enum Values {
     Numbers(Vec<f32>),
     /// Where single precision is not enough.
     Doubles(Vec<f64>),
+    /// Three a pixel.
+    Triples(Vec<[f32; 3]>),
 }
 
 /// Where a picture lies.
@@ -66,6 +88,7 @@ impl Values {
             Self::Words(values) => values.len(),
             Self::Numbers(values) => values.len(),
             Self::Doubles(values) => values.len(),
+            Self::Triples(values) => values.len(),
         }
     }
 
@@ -86,6 +109,7 @@ impl Values {
             Self::Words(values) => of(values),
             Self::Numbers(values) => of(values),
             Self::Doubles(values) => of(values),
+            Self::Triples(_) => None,
         }
     }
 
@@ -126,6 +150,7 @@ impl Values {
             Self::Words(values) => put(mask, row, &values[span], is_in),
             Self::Numbers(values) => put(mask, row, &values[span], is_in),
             Self::Doubles(values) => put(mask, row, &values[span], is_in),
+            Self::Triples(_) => {}
         }
     }
 }
@@ -141,7 +166,7 @@ pub fn read_mask(
 ) -> Result<(Mask, Option<Crs>), Error> {
     /// Values of so many pixels at most are kept until the threshold is known.
     const KEPT: u64 = 1 << 24;
-    let Header { columns, rows, place } = open(format, bytes)?.header().clone();
+    let Header { columns, rows, place, .. } = open(format, bytes)?.header().clone();
     let (grid, crs) = match place {
         Some(Place { origin, cell, crs }) => (Grid { origin, cell, columns, rows }, crs),
         None => (Grid::of_image(columns, rows), None),
@@ -154,7 +179,7 @@ pub fn read_mask(
     let is_kept = options.threshold.is_none() && grid.n_cells() <= KEPT;
     let mut kept = Vec::new();
     let mut range: Option<(f64, f64)> = None;
-    open(format, bytes)?.decode(&mut |first, values| {
+    open(format, bytes)?.decode(Wanted::Value, &mut |first, values| {
         n_values += values.len() as u64;
         if let Some(threshold) = options.threshold {
             return fill(first, &values, threshold);
@@ -176,7 +201,8 @@ pub fn read_mask(
         if is_kept {
             kept.iter().for_each(|(first, values)| fill(*first, values, threshold));
         } else {
-            open(format, bytes)?.decode(&mut |first, values| fill(first, &values, threshold))?;
+            open(format, bytes)?
+                .decode(Wanted::Value, &mut |first, values| fill(first, &values, threshold))?;
         }
     }
     Ok((mask, crs))
@@ -186,8 +212,72 @@ fn open<'b>(format: Format, bytes: &'b [u8]) -> Result<Box<dyn Image + 'b>, Erro
     match format {
         Format::Png => png::open(bytes),
         Format::Tiff => tiff::open(bytes),
+        Format::Jpeg => jpeg::open(bytes),
         other => Err(Error::Unreadable { format: other }),
     }
+}
+
+/// An image of three numbers a pixel.
+#[derive(Clone, Debug)]
+pub struct Colours {
+    /// Where the pixels lie.
+    pub grid: Grid,
+    /// The coordinate reference system that the image names.
+    pub crs: Option<Crs>,
+    /// Row by row: red, green and blue of sRGB from 0 to 1, or bands as they are; not numbers where there is no
+    /// data or the image is transparent.
+    pub values: Vec<[f32; 3]>,
+    /// Whether they are bands.
+    pub are_bands: bool,
+}
+
+/// The colours of an image, or some of its bands, by their numbers from 1; an image whose bands are no colours
+/// gives the first three if none are named. A band that is not there is 0.
+///
+/// # Errors
+/// If the bytes are no such image, are damaged, the image is too large or has no such band.
+pub fn read_colours(format: Format, bytes: &[u8], bands: &[usize]) -> Result<Colours, Error> {
+    let image = open(format, bytes)?;
+    let Header { columns, rows, place, n_bands, is_colour } = image.header().clone();
+    let refused = |why: String| Err(Error::File { why });
+    if let Some(band) = bands.iter().find(|&&band| band == 0 || band > n_bands) {
+        return refused(format!("the image has no band {band}; they go from 1 to {n_bands}"));
+    }
+    if bands.len() > 3 {
+        return refused(format!(
+            "{} bands are more than can be looked at; name up to 3",
+            bands.len()
+        ));
+    }
+    let chosen: Vec<usize> = match bands {
+        [] => (0..n_bands.min(3)).collect(),
+        bands => bands.iter().map(|band| band - 1).collect(),
+    };
+    let are_bands = !bands.is_empty() || !is_colour;
+    let (grid, crs) = match place {
+        Some(Place { origin, cell, crs }) => (Grid { origin, cell, columns, rows }, crs),
+        None => (Grid::of_image(columns, rows), None),
+    };
+    // Labels are masks in the end.
+    Mask::empty(Grid { rows: rows.min(1), columns: columns.min(1), ..grid })
+        .map_err(|error| Error::File { why: error.to_string() })?;
+    if columns > Mask::MOST || rows > Mask::MOST {
+        return refused(format!(
+            "{columns} by {rows} pixels are too many; cut the image into tiles"
+        ));
+    }
+    let mut values = Vec::new();
+    let wanted = if are_bands { Wanted::Bands(&chosen) } else { Wanted::Colour };
+    image.decode(wanted, &mut |_, rows| {
+        if let Values::Triples(rows) = rows {
+            values.extend(rows);
+        }
+    })?;
+    if values.len() as u64 != grid.n_cells() {
+        let n = values.len();
+        return refused(format!("the image has {n} values for {columns} by {rows} pixels"));
+    }
+    Ok(Colours { grid, crs, values, are_bands })
 }
 
 /// Reads an image as one feature, whose polygons are the outline of its mask, unless masks are to come alone.
@@ -221,6 +311,36 @@ fn most_bytes(in_file: usize) -> usize {
 /// The brightness of a colour [ITU-R BT.709], as its values are stored.
 fn brightness([red, green, blue]: [f64; 3]) -> f64 {
     0.2126 * red + 0.7152 * green + 0.0722 * blue
+}
+
+/// Red, green and blue of pixels of several samples up to a greatest value; the last sample may say how opaque a
+/// pixel is.
+fn coloured(
+    samples: &[f32],
+    each: usize,
+    colours: usize,
+    has_alpha: bool,
+    greatest: f32,
+) -> Values {
+    let colour = |pixel: &[f32]| {
+        let hidden = has_alpha && pixel[each - 1] < 0.5 * greatest;
+        match colours {
+            _ if hidden => [f32::NAN; 3],
+            3 => [0, 1, 2].map(|k| pixel[k] / greatest),
+            // Four inks.
+            4 => [0, 1, 2].map(|k| (1.0 - pixel[k] / greatest) * (1.0 - pixel[3] / greatest)),
+            _ => [pixel[0] / greatest; 3],
+        }
+    };
+    Values::Triples(samples.chunks_exact(each).map(colour).collect())
+}
+
+/// Some samples of each pixel.
+fn banded(samples: &[f32], each: usize, bands: &[usize]) -> Values {
+    let triple = |pixel: &[f32]| {
+        [0, 1, 2].map(|k| bands.get(k).and_then(|&band| pixel.get(band)).copied().unwrap_or(0.0))
+    };
+    Values::Triples(samples.chunks_exact(each).map(triple).collect())
 }
 
 /// One value for each pixel of several samples, the last of which may say how opaque it is, up to `opaque`.

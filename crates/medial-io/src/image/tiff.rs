@@ -1,4 +1,6 @@
-use super::{Header, Image, Place, Values, brightness, flattened, most_bytes};
+use super::{
+    Header, Image, Place, Values, Wanted, banded, brightness, coloured, flattened, most_bytes,
+};
 use crate::{Crs, Error};
 use medial::geom::Point;
 use std::borrow::Cow;
@@ -41,7 +43,8 @@ struct Kind {
     /// Those of them that make its colour.
     n_colours: usize,
     has_alpha: bool,
-    palette: Option<Vec<f32>>,
+    /// Red, green and blue of each number, from 0 to 1.
+    palette: Option<Vec<[f32; 3]>>,
     no_data: Option<f64>,
 }
 
@@ -85,7 +88,10 @@ pub(super) fn open(bytes: &[u8]) -> Result<Box<dyn Image + '_>, Error> {
         let why = format!("{columns} by {rows} pixels are too many; cut the image into tiles");
         return Err(Error::File { why });
     }
-    let header = Header { columns, rows, place };
+    // Whole numbers of up to two bytes are colours or grey, unless there are several that are none.
+    let is_few = bits <= 16 && (each == 1 || n_colours > 1 || has_alpha);
+    let n_bands = if has_palette { 3 } else { each - usize::from(has_alpha) };
+    let header = Header { columns, rows, place, n_bands, is_colour: is_few || n_colours > 1 };
     let kind = Kind { bits, each, n_colours, has_alpha, palette, no_data };
     Ok(Box::new(Tiff { decoder, header, kind }))
 }
@@ -95,7 +101,11 @@ impl Image for Tiff<'_> {
         &self.header
     }
 
-    fn decode(mut self: Box<Self>, take: &mut dyn FnMut(u32, Values)) -> Result<(), Error> {
+    fn decode(
+        mut self: Box<Self>,
+        wanted: Wanted<'_>,
+        take: &mut dyn FnMut(u32, Values),
+    ) -> Result<(), Error> {
         let Header { columns, rows, .. } = self.header;
         /// Tag 284: samples of a pixel one after the other, or one plane after the other.
         const PLANES: u16 = 2;
@@ -103,7 +113,7 @@ impl Image for Tiff<'_> {
             self.decoder.find_tag_unsigned(Tag::PlanarConfiguration).map_err(wrong)?;
         if planes == Some(PLANES) || columns == 0 || rows == 0 {
             let samples = self.decoder.read_image().map_err(wrong)?;
-            take(0, self.kind.values(samples, columns, rows));
+            take(0, self.kind.values(samples, columns, rows, wanted));
             return Ok(());
         }
         // Strips are as wide as the image, tiles are not.
@@ -120,7 +130,7 @@ impl Image for Tiff<'_> {
                 let chunk = row as u32 * across + column;
                 let (wide, high) = self.decoder.chunk_data_dimensions(chunk);
                 let samples = self.decoder.read_chunk(chunk).map_err(wrong)?;
-                let values = self.kind.values(samples, wide, high);
+                let values = self.kind.values(samples, wide, high, wanted);
                 if across == 1 {
                     whole = Some(values);
                 } else {
@@ -138,7 +148,13 @@ impl Image for Tiff<'_> {
 
 impl Kind {
     /// The values of so many pixels.
-    fn values(&self, samples: DecodingResult, columns: u32, rows: u32) -> Values {
+    fn values(
+        &self,
+        samples: DecodingResult,
+        columns: u32,
+        rows: u32,
+        wanted: Wanted<'_>,
+    ) -> Values {
         let Self { bits, each, n_colours, has_alpha, .. } = *self;
         let samples = match samples {
             DecodingResult::U8(samples) if bits < 8 => {
@@ -146,12 +162,18 @@ impl Kind {
             }
             samples => samples,
         };
+        if !matches!(wanted, Wanted::Value) {
+            return self.triples(samples, wanted);
+        }
         // Transparency by its greatest value; that of floating-point samples is 1.
         let alpha = |greatest: f64| has_alpha.then_some(greatest);
         let values = match samples {
             DecodingResult::U8(samples) => match &self.palette {
                 Some(palette) => {
-                    let colour = |&k: &u8| palette.get(usize::from(k)).copied().unwrap_or(f32::NAN);
+                    let light = |rgb: &[f32; 3]| brightness(rgb.map(|v| f64::from(v) * 65_535.0));
+                    let colour = |&k: &u8| {
+                        palette.get(usize::from(k)).map_or(f32::NAN, |rgb| light(rgb) as f32)
+                    };
                     Values::Numbers(samples.iter().map(colour).collect())
                 }
                 None if n_colours == 4 => Values::Numbers(
@@ -188,6 +210,55 @@ impl Kind {
         };
         without(values, self.no_data)
     }
+
+    /// The colours, or some bands, of pixels.
+    fn triples(&self, samples: DecodingResult, wanted: Wanted<'_>) -> Values {
+        let Self { bits, each, n_colours, has_alpha, no_data, .. } = *self;
+        let (mut numbers, greatest) = numbers(samples, bits);
+        if let Some(no_data) = no_data {
+            numbers
+                .iter_mut()
+                .filter(|number| **number == no_data as f32)
+                .for_each(|number| *number = f32::NAN);
+        }
+        let of_palette = |&number: &f32| {
+            let palette = self.palette.as_deref().unwrap_or_default();
+            palette.get(number as usize).copied().unwrap_or([f32::NAN; 3])
+        };
+        match wanted {
+            _ if self.palette.is_none() => match wanted {
+                Wanted::Bands(bands) => banded(&numbers, each, bands),
+                _ => coloured(&numbers, each, n_colours, has_alpha, greatest),
+            },
+            Wanted::Bands(bands) => {
+                let colours: Vec<f32> = numbers.iter().flat_map(of_palette).collect();
+                banded(&colours, 3, bands)
+            }
+            _ => Values::Triples(numbers.iter().map(of_palette).collect()),
+        }
+    }
+}
+
+/// Samples as numbers, and the greatest that whole ones can be.
+fn numbers(samples: DecodingResult, bits: u8) -> (Vec<f32>, f32) {
+    fn of<T: Copy>(samples: &[T], number: impl Fn(T) -> f32) -> Vec<f32> {
+        samples.iter().map(|&sample| number(sample)).collect()
+    }
+    match samples {
+        DecodingResult::U8(s) => {
+            (of(&s, f32::from), if bits < 8 { ((1_u16 << bits) - 1).into() } else { 255.0 })
+        }
+        DecodingResult::U16(s) => (of(&s, f32::from), 65_535.0),
+        DecodingResult::U32(s) => (of(&s, |v| v as f32), u32::MAX as f32),
+        DecodingResult::U64(s) => (of(&s, |v| v as f32), u64::MAX as f32),
+        DecodingResult::I8(s) => (of(&s, f32::from), 127.0),
+        DecodingResult::I16(s) => (of(&s, f32::from), 32_767.0),
+        DecodingResult::I32(s) => (of(&s, |v| v as f32), i32::MAX as f32),
+        DecodingResult::I64(s) => (of(&s, |v| v as f32), i64::MAX as f32),
+        DecodingResult::F16(s) => (of(&s, f32::from), 1.0),
+        DecodingResult::F32(s) => (s, 1.0),
+        DecodingResult::F64(s) => (of(&s, |v| v as f32), 1.0),
+    }
 }
 
 impl Values {
@@ -198,6 +269,7 @@ impl Values {
             Self::Words(_) => Self::Words(vec![0; n]),
             Self::Numbers(_) => Self::Numbers(vec![0.0; n]),
             Self::Doubles(_) => Self::Doubles(vec![0.0; n]),
+            Self::Triples(_) => Self::Triples(vec![[0.0; 3]; n]),
         }
     }
 
@@ -212,6 +284,7 @@ impl Values {
             (Self::Words(whole), Self::Words(tile)) => of(whole, tile, columns, from, width),
             (Self::Numbers(whole), Self::Numbers(tile)) => of(whole, tile, columns, from, width),
             (Self::Doubles(whole), Self::Doubles(tile)) => of(whole, tile, columns, from, width),
+            (Self::Triples(whole), Self::Triples(tile)) => of(whole, tile, columns, from, width),
             _ => {}
         }
     }
@@ -275,6 +348,7 @@ fn without(values: Values, no_data: Option<f64>) -> Values {
         Values::Doubles(values) => Values::Doubles(
             values.into_iter().map(|v| if v == no_data { f64::NAN } else { v }).collect(),
         ),
+        triples @ Values::Triples(_) => triples,
     }
 }
 
@@ -312,11 +386,11 @@ fn without_palette(bytes: &[u8]) -> Option<Vec<u8>> {
     Some(grey)
 }
 
-/// The brightness of the colours of a palette, up to 65,535.
-fn palette(decoder: &mut Source<'_>) -> Result<Vec<f32>, TiffError> {
+/// The colours of a palette, from 0 to 1.
+fn palette(decoder: &mut Source<'_>) -> Result<Vec<[f32; 3]>, TiffError> {
     let map = decoder.get_tag_u16_vec(Tag::ColorMap)?;
     let n = map.len() / 3;
-    let colour = |k: usize| brightness([map[k], map[n + k], map[2 * n + k]].map(f64::from)) as f32;
+    let colour = |k: usize| [map[k], map[n + k], map[2 * n + k]].map(|v| f32::from(v) / 65_535.0);
     Ok((0..n).map(colour).collect())
 }
 

@@ -1,7 +1,9 @@
-//! Masks as images.
+//! Masks, colours and labels as images.
 
 use medial::raster::Mask;
 use png::{BitDepth, ColorType, Compression, DeflateCompression, Encoder, Filter};
+use std::io::Cursor;
+use tiff::encoder::{Compression as TiffCompression, TiffEncoder, colortype};
 
 /// Filters of rows that are tried: which is best depends on the image.
 const FILTERS: [Filter; 3] = [Filter::NoFilter, Filter::Up, Filter::Adaptive];
@@ -45,4 +47,53 @@ pub fn write_png(mask: &Mask) -> Vec<u8> {
         Some(bytes)
     });
     written.min_by_key(Vec::len).unwrap_or_default()
+}
+
+/// Colours, row by row, each of red, green and blue from 0 to 1, as a PNG image; what is not a number is
+/// transparent.
+///
+/// # Panics
+/// If there are not so many.
+#[must_use]
+pub fn write_colours(columns: u32, rows: u32, colours: &[[f32; 3]]) -> Vec<u8> {
+    assert_eq!(
+        colours.len() as u64,
+        u64::from(columns) * u64::from(rows),
+        "a colour for each pixel"
+    );
+    // PNG has no image without pixels.
+    let pixels = (columns.max(1) as usize) * (rows.max(1) as usize);
+    let byte = |value: f32| (255.0 * value.clamp(0.0, 1.0)).round() as u8;
+    let pixel = |colour: &[f32; 3]| match colour.iter().any(|value| value.is_nan()) {
+        true => [0; 4],
+        false => [byte(colour[0]), byte(colour[1]), byte(colour[2]), 255],
+    };
+    let mut samples: Vec<u8> = colours.iter().flat_map(pixel).collect();
+    samples.resize(4 * pixels, 0);
+    let mut bytes = Vec::new();
+    let mut encoder = Encoder::new(&mut bytes, columns.max(1), rows.max(1));
+    encoder.set_color(ColorType::Rgba);
+    encoder.set_depth(BitDepth::Eight);
+    // Writing to memory does not fail.
+    if let Ok(mut writer) = encoder.write_header() {
+        let _ = writer.write_image_data(&samples).and_then(|()| writer.finish());
+    }
+    bytes
+}
+
+/// Numbers, row by row, as a TIFF image of 32 bits a pixel.
+///
+/// # Panics
+/// If there are not so many, or none.
+#[must_use]
+pub fn write_labels(columns: u32, rows: u32, labels: &[u32]) -> Vec<u8> {
+    assert_eq!(labels.len() as u64, u64::from(columns) * u64::from(rows), "a label for each pixel");
+    let mut bytes = Cursor::new(Vec::new());
+    // Writing to memory does not fail.
+    let _ = TiffEncoder::new(&mut bytes).and_then(|encoder| {
+        encoder
+            .with_compression(TiffCompression::Lzw)
+            .write_image::<colortype::Gray32>(columns, rows, labels)
+    });
+    bytes.into_inner()
 }
