@@ -3,7 +3,6 @@ use super::{Common, Flattening, Prune, Rows, engine, named, not_negative};
 use crate::failure::Failure;
 use clap::Args;
 use medial::axis::Engine;
-use medial::engine;
 use medial::ops::{MaskMethod, MaskOptions, Measure};
 use std::path::PathBuf;
 
@@ -121,7 +120,7 @@ impl CompressArgs {
         let residual = match self.prune {
             Some(Prune::Nothing) => None,
             Some(Prune::Below(_, value)) => Some(value / cell),
-            None => engine::Options::default().residual,
+            None => medial::engine::Options::default().residual,
         };
         let usual = MaskOptions::default();
         MaskOptions {
