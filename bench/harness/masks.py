@@ -1,5 +1,7 @@
 """Compares ways to compress masks, and draws the plot of docs/raster.md from its table."""
 
+import re
+
 from . import BENCH
 from .run import run
 
@@ -11,12 +13,13 @@ GROUPS = [
     ("scanned pages", "scans", "*.png"),
 ]
 
-# The plot shows these, by the beginning of the way.
+# The plot shows these, by the ways that match.
 SERIES = {
-    "chain, chord": ("chain by threshold", "#8e24aa"),
-    "chain, error": ("chain by error", "#1976d2"),
-    "cover": ("disks", "#00897b"),
-    "squares": ("squares", "#ef6c00"),
+    r"chain, chord=[\d.]+": ("chain by threshold", "#8e24aa"),
+    r"chain, chord=2(, .*radii.*)?": ("chain by steps of radii", "#ad1457"),
+    r"chain, error .*": ("chain by error", "#1976d2"),
+    r"cover, .*": ("disks", "#00897b"),
+    r"squares, .*": ("squares", "#ef6c00"),
 }
 
 EXACT = ["PNG", "CCITT G4", "crack"]
@@ -118,7 +121,7 @@ def figure(text):
 
 def plot(lines, place, title, left, top):
     """One plot."""
-    series = {key: sorted((line[1], line[place]) for line in lines if line[0].startswith(key)) for key in SERIES}
+    series = {key: sorted((line[1], line[place]) for line in lines if re.fullmatch(key, line[0])) for key in SERIES}
     exact = {line[0]: line[1] for line in lines if line[0] in EXACT}
     most_x = min(4.0, 1.05 * max([x for points in series.values() for x, _ in points] + list(exact.values())))
     most_y = 1.05 * max([y for points in series.values() for x, y in points if x <= most_x] + [1e-9])

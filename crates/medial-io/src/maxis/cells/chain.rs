@@ -148,7 +148,8 @@ pub fn code(
                     continue;
                 }
                 is_met.is_new([x, y]);
-                let guess = front.number + ((front.number - front.before) * i64::from(share) >> 2);
+                let guess =
+                    front.number + (((front.number - front.before) * i64::from(share)) >> 2);
                 let own = there.map_or(0, |ball| sizes.number(ball.size));
                 let was = front.off.unsigned_abs().min(8);
                 let numbers = &mut models.off[(u64::BITS - was.leading_zeros()) as usize];
