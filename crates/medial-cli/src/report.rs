@@ -130,8 +130,10 @@ impl Entry {
 
     /// Reading left something out or took it for something else.
     pub fn noted(note: &Note) -> Self {
-        let action =
-            if note.code == "part_not_polygon" { Action::Dropped } else { Action::Repaired };
+        let action = match note.code {
+            "part_not_polygon" | "point_left_out" => Action::Dropped,
+            _ => Action::Repaired,
+        };
         Self { action, ..Self::refused(note.code, note.text.clone()) }
     }
 }
