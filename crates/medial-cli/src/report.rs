@@ -1,5 +1,5 @@
 use medial::domain::{DomainError, Repair, Report as Repairs};
-use medial::engine::EngineError;
+use medial::engine::{EngineError, Sampling};
 use medial::ops::CenterlineError;
 use medial_io::{Json, Note};
 use serde::Serialize;
@@ -58,6 +58,7 @@ pub enum Action {
     Repaired,
     Dropped,
     Refused,
+    Sampled,
 }
 
 impl Report {
@@ -115,6 +116,18 @@ impl Entry {
             _ => "internal",
         };
         Self::refused(code, error.to_string())
+    }
+
+    /// How well samples stand for a boundary.
+    pub fn sampled(sampling: &Sampling) -> Self {
+        let Sampling { n_samples, spacing, n_missing, n_outside_crust, n_sparse, .. } = *sampling;
+        let message = format!(
+            "{n_samples} samples, at most {spacing} apart: of as many pairs of neighbours {n_missing} are joined only \
+             because the boundary is known, {n_outside_crust} are not in the crust, {n_sparse} are too far apart for \
+             the theorem about it"
+        );
+        let points = sampling.first_sparse.iter().map(|p| [p.x, p.y]).collect();
+        Self { action: Action::Sampled, points, ..Self::refused("sampling", message) }
     }
 
     /// There is no line as asked for.

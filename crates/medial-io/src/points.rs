@@ -17,7 +17,7 @@ use medial::geom::Point;
 ///
 /// # Errors
 /// If there are no rows, or a row has no two finite numbers where coordinates are.
-pub fn read(text: &str) -> Result<Layer<'static>, Error> {
+pub fn read(text: &str) -> Result<Layer<'_>, Error> {
     let points = points(text)?;
     let Border { rings, left_out } = border(&points);
     let mut feature = Feature::numbered(0);
