@@ -14,8 +14,8 @@ mod rims;
 
 pub use bounds_tree::{BoundsTree, Rect, Visitor};
 pub use capsule_tree::{CapsuleTree, Hidden, LEAF, Look, Scope};
-pub(crate) use disk::U;
 pub use delaunay::{Blocked, Delaunay, EdgeId, INFINITY};
+pub(crate) use disk::U;
 pub use disk::{Governor, TouchingDisk, Unsure};
 pub use double::Double;
 pub(crate) use double::{Doubled, Fused};
