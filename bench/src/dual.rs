@@ -24,7 +24,7 @@ pub fn bitmap(file: &str) -> Result<(), Error> {
     let options = engine::Options::default();
     let (mut graphs, mut axes) = (Vec::new(), Vec::new());
     let begun = ThreadTime::now();
-    while graphs.len() < 3 || begun.elapsed().as_secs_f64() < 0.3 {
+    while graphs.len() < 3 || begun.elapsed().as_secs_f64() < 0.05 {
         let start = ThreadTime::now();
         let dual = DelaunayDual::of_mask(&mask, &options)?;
         graphs.push(start.elapsed().as_nanos() as f64);

@@ -118,14 +118,6 @@ impl Opened {
         let mut source = open(path).map_err(failed)?;
         let mut bytes = Vec::new();
         let format = match known {
-            Some(format @ Format::Csv) => {
-                let why = format!(
-                    "the format {format} is written only; polygons come as geojson, geojsonl, wkt, wkb, rings, \
-                     gpkg, shp, fgb, parquet, svg, dxf, ttf, png or tiff"
-                );
-                let usage = from.is_some();
-                return Err(if usage { Failure::Usage(why) } else { Failure::file(&name, why) });
-            }
             Some(format) if !matches!(format, Format::Json | Format::Maxis) => format,
             _ => {
                 bytes = beginning(&mut source).map_err(failed)?;

@@ -1,5 +1,5 @@
 use medial::domain::{DomainError, Repair, Report as Repairs};
-use medial::engine::EngineError;
+use medial::engine::{EngineError, Sampling};
 use medial::ops::CenterlineError;
 use medial_io::{Json, Note};
 use serde::Serialize;
@@ -58,6 +58,7 @@ pub enum Action {
     Repaired,
     Dropped,
     Refused,
+    Sampled,
 }
 
 impl Report {
@@ -117,6 +118,18 @@ impl Entry {
         Self::refused(code, error.to_string())
     }
 
+    /// How well samples stand for a boundary.
+    pub fn sampled(sampling: &Sampling) -> Self {
+        let Sampling { n_samples, spacing, n_missing, n_outside_crust, n_sparse, .. } = *sampling;
+        let message = format!(
+            "{n_samples} samples, at most {spacing} apart: of as many pairs of neighbours {n_missing} are joined only \
+             because the boundary is known, {n_outside_crust} are not in the crust, {n_sparse} are too far apart for \
+             the theorem about it"
+        );
+        let points = sampling.first_sparse.iter().map(|p| [p.x, p.y]).collect();
+        Self { action: Action::Sampled, points, ..Self::refused("sampling", message) }
+    }
+
     /// There is no line as asked for.
     pub fn no_line(error: &CenterlineError) -> Self {
         let code = match error {
@@ -130,8 +143,10 @@ impl Entry {
 
     /// Reading left something out or took it for something else.
     pub fn noted(note: &Note) -> Self {
-        let action =
-            if note.code == "part_not_polygon" { Action::Dropped } else { Action::Repaired };
+        let action = match note.code {
+            "part_not_polygon" | "point_left_out" => Action::Dropped,
+            _ => Action::Repaired,
+        };
         Self { action, ..Self::refused(note.code, note.text.clone()) }
     }
 }

@@ -1,5 +1,5 @@
 use cpu_time::ProcessTime;
-use medial::engine::Options;
+use medial::engine::{Options, Sampling};
 use serde::Serialize;
 use std::num::NonZeroUsize;
 use std::time::{Duration, Instant};
@@ -14,6 +14,8 @@ pub struct Stages {
     pub write: Duration,
     /// When the present feature must be done.
     pub deadline: Option<Instant>,
+    /// How well samples stand for the boundary of the present feature, if there are some.
+    pub sampling: Option<Sampling>,
 }
 
 impl Stages {

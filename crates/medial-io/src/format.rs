@@ -20,7 +20,7 @@ pub enum Format {
     Wkt,
     /// Well-known binary, one geometry after the other, or a line of hexadecimal digits each.
     Wkb,
-    /// Comma-separated values, a row a path.
+    /// Comma-separated values: points in, a row each; a row a path out.
     Csv,
     /// A vector picture.
     Svg,

@@ -56,6 +56,7 @@ pub mod maxis;
 pub mod offset_document;
 pub mod parquet;
 pub mod png;
+pub mod points;
 pub mod record;
 pub mod rings;
 pub mod shp;
@@ -103,6 +104,7 @@ pub fn read_with<'a>(
         Format::Wkt => Ok(wkt::read(text(bytes)?)),
         Format::Wkb => wkb::read(bytes),
         Format::Rings => rings::read(text(bytes)?),
+        Format::Csv => points::read(text(bytes)?),
         other => Err(Error::Unreadable { format: other }),
     }
 }

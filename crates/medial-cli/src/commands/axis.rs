@@ -9,8 +9,8 @@ use crate::timings::timed;
 use medial::axis::{Engine, Joining, MedialAxis, Side};
 use medial::domain::Domain;
 use medial::engine::{
-    self, DelaunayDual, EngineError, RidgeOptions, both_sides, brushfire, brushfire_of_domain,
-    exterior, interior, of_mask, ridge_following, ridge_following_of_mask,
+    self, DelaunayDual, EngineError, RidgeOptions, Sampling, both_sides, brushfire,
+    brushfire_of_domain, exterior, interior, of_mask, ridge_following, ridge_following_of_mask,
 };
 use medial::ops::{Hierarchy, Significance};
 use medial::raster::default_cell;
@@ -96,9 +96,12 @@ fn run_on(args: &'static AxisArgs, documents: Documents) -> Result<Status, Failu
         move |feature, domain, stages, bytes| {
             let options = stages.options(threads);
             // All that is asked of a feature, or nothing.
+            let mut sampling = None;
             let axes = timed(&mut stages.engine, || {
-                traced(&args.engine, &args.region, &args.pruning, feature, domain, &options)
+                let AxisArgs { engine, region, pruning, .. } = args;
+                traced(engine, region, pruning, feature, domain, &options, &mut sampling)
             })?;
+            stages.sampling = sampling;
             let axes: Vec<_> = if !args.pruning.removes(feature, args.engine.of(feature))
                 && args.measures.is_empty()
             {
@@ -183,7 +186,7 @@ pub fn pruned(
 }
 
 /// The axes of a feature by the engine that is chosen for it, which may be one on cells: those of the image it
-/// was, or of a size.
+/// was, or of a size. Tells how well samples stand for the boundary, if the engine takes some.
 pub fn traced(
     chosen: &ChosenEngine,
     region: &Region,
@@ -191,6 +194,7 @@ pub fn traced(
     feature: &Feature,
     domain: &Domain,
     options: &engine::Options<'_>,
+    sampling: &mut Option<Sampling>,
 ) -> Result<Vec<MedialAxis>, Entry> {
     let engine = chosen.of(feature);
     if engine.is_exact() {
@@ -206,7 +210,11 @@ pub fn traced(
     let sides = region.side.all().iter();
     if engine == Engine::DelaunayDual {
         let pruning = pruning.of_dual(feature, cell);
-        let axis = |&side| dual(chosen, region, side, feature, domain, &options)?.axis(pruning);
+        let axis = |&side| {
+            let dual = dual(chosen, region, side, feature, domain, &options)?;
+            sampling.get_or_insert_with(|| dual.sampling());
+            dual.axis(pruning)
+        };
         return sides
             .map(axis)
             .collect::<Result<_, _>>()

@@ -80,7 +80,15 @@ pub fn run(args: &'static BranchesArgs) -> Result<Status, Failure> {
         let tolerance = args.tolerance.unwrap_or_else(|| domain_tolerance(domain));
         if args.limbs {
             let sides = timed(&mut stages.engine, || {
-                traced(&args.engine, &args.region, &args.pruning, feature, domain, options)
+                traced(
+                    &args.engine,
+                    &args.region,
+                    &args.pruning,
+                    feature,
+                    domain,
+                    options,
+                    &mut None,
+                )
             })?;
             let limbs = timed(&mut stages.operations, || all_limbs(args, domain, &sides))?;
             return Ok((0_usize..)
@@ -89,7 +97,7 @@ pub fn run(args: &'static BranchesArgs) -> Result<Status, Failure> {
                 .collect());
         }
         let axes = timed(&mut stages.engine, || {
-            traced(&args.engine, &args.region, &args.pruning, feature, domain, options)
+            traced(&args.engine, &args.region, &args.pruning, feature, domain, options, &mut None)
         })?;
         timed(&mut stages.operations, || {
             let mut records = Vec::new();

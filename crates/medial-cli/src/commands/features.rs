@@ -361,6 +361,9 @@ fn process<R>(
                 outcome.entries.push(entry);
             }
             let result = work(&feature, &domain, &mut stages, bytes)?;
+            if let Some(sampling) = stages.sampling.take() {
+                outcome.entries.push(Entry::sampled(&sampling));
+            }
             // What is no GeoJSON is in metres.
             if let Some(metric) = metric.filter(|_| is_features(&bytes[outcome.end..])) {
                 timed(&mut stages.write, || metric.restore(bytes, outcome.end))?;

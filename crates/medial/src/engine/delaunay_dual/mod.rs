@@ -55,7 +55,7 @@ use samples::{Plane, Samples};
 use std::collections::BTreeSet;
 
 /// The distance between samples of masks where nothing else is said, in sides of a cell: with it the crust of
-/// silhouettes has all their edges and, of others, less than one in a thousand.
+/// silhouettes has all their edges and, of others, little more than one in a thousand.
 const MASK_SPACING: f64 = 0.5;
 
 /// How dense samples have to be for the crust to be the boundary, as a share of the distance from the axis [ABE98].

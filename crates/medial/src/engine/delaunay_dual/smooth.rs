@@ -118,7 +118,11 @@ mod tests {
         let above = (0..200).rev().map(|k| Point::new(0.5 * f64::from(k), 20.0 + saw(k)));
         let points: Vec<Point> = below.chain(above).collect();
         let n = points.len() as u32;
-        let mut samples = Samples { points, elements: vec![[0; 2]; n as usize], rings: vec![0..n] };
+        let mut samples = Samples {
+            points,
+            elements: vec![[0; 2]; n as usize],
+            rings: std::iter::once(0..n).collect(),
+        };
         let moved = average(&mut samples, 1.0, 1.0);
         assert!((0.12..=MOST).contains(&moved), "{moved}");
         let inner = &samples.points[20..180];

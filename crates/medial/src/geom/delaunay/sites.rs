@@ -231,6 +231,21 @@ impl Sites {
         sign(&(dot(&la, &lb) * dot(&rb, &ra) - cross(&la, &lb) * cross(&rb, &ra)))
     }
 
+    /// The sign of the cosine of twice the angle at `apex` between the ways to `a` and `b`, exactly.
+    pub fn opening_twice(&self, apex: u32, a: u32, b: u32) -> f64 {
+        let [apex, a, b] = [apex, a, b].map(|vertex| self.local[vertex as usize]);
+        let (to_a, to_b) = (a - apex, b - apex);
+        let (dot, cross) = (to_a.dot(to_b), to_a.cross(to_b));
+        let value = dot * dot - cross * cross;
+        let size = to_a.norm2() * to_b.norm2();
+        if value.abs() > ANGLE_ERROR * size && self.arithmetic != Arithmetic::Integers {
+            return value;
+        }
+        let [a, b] = [a, b].map(|p| self.big_way(apex, p));
+        let (dot, cross) = (self::dot(&a, &b), self::cross(&a, &b));
+        sign(&(&dot * &dot - &cross * &cross))
+    }
+
     /// The way between two points in units of the last bit.
     fn big_way(&self, from: Point, to: Point) -> [IBig; 2] {
         let whole = |value: f64| {
