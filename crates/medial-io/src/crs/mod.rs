@@ -184,8 +184,11 @@ impl Crs {
         }
         let id = self.authority();
         let of_text = |text: &str| projjson::of_text(text, id);
-        let found = self.wkt.as_deref().and_then(of_text);
-        let found = found.or_else(|| of_text(&self.defined()?))?;
+        // A text that does not say the number may have other names for what it means.
+        let is_numbered = |text: &&str| id.is_none() || identifier(text).is_some();
+        let found = self.wkt.as_deref().filter(is_numbered).and_then(of_text);
+        let found = found.or_else(|| of_text(&self.defined()?));
+        let found = found.or_else(|| of_text(self.wkt.as_deref()?))?;
         Some(found.to_string().into())
     }
 

@@ -235,7 +235,9 @@ fn ellipsoid(node: &Node) -> Option<Value> {
 
 /// The geographic system that a projected one of version 2 is based on.
 fn base_of(node: &Node) -> Option<Value> {
-    let unit = unit(node).map_or_else(|| "degree".into(), |(unit, _)| unit);
+    // Where it says nothing of its unit, its prime meridian does.
+    let own = unit(node).or_else(|| unit(node.get(&["PRIMEM", "PRIMEMERIDIAN"])?));
+    let unit = own.map_or_else(|| "degree".into(), |(unit, _)| unit);
     let axes = [axis("Geodetic latitude", "Lat", "north", &unit), longitude(&unit)];
     let mut found = json!({
         "type": "GeographicCRS",
