@@ -2,7 +2,7 @@ use super::{blob, quoted};
 use crate::apart::{Rows, read_apart};
 use crate::{Crs, Error, Feature, FeatureError, Json, Layer, Part, attribute};
 use rusqlite::types::ValueRef;
-use rusqlite::{Connection, ErrorCode, OpenFlags, OptionalExtension as _, Row};
+use rusqlite::{Connection, OpenFlags, OptionalExtension as _, Row};
 use std::path::Path;
 
 /// Tables of which the rows are counted, so that few features share the threads.
@@ -39,11 +39,6 @@ pub fn open(path: &Path, layer: Option<&str>) -> Result<Layer<'static>, Error> {
     database
         .execute_batch("PRAGMA trusted_schema = OFF; PRAGMA cell_size_check = ON;")
         .map_err(broken)?;
-    let probe = database.query_row("SELECT count(*) FROM sqlite_master", [], |_| Ok(()));
-    if probe.is_err_and(|error| error.sqlite_error_code() == Some(ErrorCode::DatabaseCorrupt)) {
-        // A file that is shorter than it should be is refused otherwise; nothing is written anyway.
-        database.execute_batch("PRAGMA writable_schema = ON;").map_err(broken)?;
-    }
     let table = table(&database, layer)?;
     let crs = reference(&database, table.srs).map_err(broken)?;
     let count =
