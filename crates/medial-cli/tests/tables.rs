@@ -201,6 +201,8 @@ fn of_a_table_that_breaks_off_the_beginning_is_used() {
         let report: serde_json::Value =
             serde_json::from_slice(&std::fs::read(&report).unwrap()).unwrap();
         let last = &report["features"].as_array().unwrap().last().unwrap()["entries"][0];
-        assert_eq!(last["code"], "broken_off", "{format}: {}", run.errors);
+        // The index of a shapefile still knows the records that are missing, and each is told.
+        let code = if format == "shp" { "malformed" } else { "broken_off" };
+        assert_eq!(last["code"], code, "{format}: {}", run.errors);
     }
 }
