@@ -168,6 +168,9 @@ def drawing(version):
     expected.append(flat(inner, insert.matrix44()))
     model.add_line((0, 80), (1, 80), dxfattribs={"layer": "OPEN"})
     model.add_text("text", dxfattribs={"layer": "TEXT"})
+    for name, state in (("OFF", "off"), ("FROZEN", "freeze")):
+        getattr(document.layers.add(name), state)()
+        model.add_circle((200, 200), 1, dxfattribs={"layer": name})
     if version == "R12":
         return document, expected
     closed(model.add_lwpolyline(slot, format="xyb", close=True, dxfattribs=layer()))
@@ -183,6 +186,15 @@ def drawing(version):
     rational = model.add_spline(dxfattribs=layer())
     rational.set_open_rational([*control, control[0]], [1, 2, 1, 0.5, 3, 1])
     closed(rational)
+    # Splines through points, closed by a line, with and without tangents.
+    for y, tangents in ((0, None), (30, ((0, 4), (-1, -2)))):
+        attributes = layer()
+        through = [(120, y), (124, y + 7), (131, y + 5), (133, y + 11), (140, y + 2)]
+        fit = model.add_spline(fit_points=through, dxfattribs=attributes)
+        if tangents:
+            fit.dxf.start_tangent, fit.dxf.end_tangent = tangents
+        model.add_line(through[-1], through[0], dxfattribs=attributes)
+        closed(fit)
     closed(model.add_solid([(70, 0), (75, 0), (70, 4), (76, 5)], dxfattribs=layer()))
     expected[-1] = Polygon([(70, 0), (75, 0), (76, 5), (70, 4)])
     # Hatches with every kind of edge.
@@ -241,6 +253,7 @@ def check_dxf_in(folder):
                 if version != "R12":
                     check(properties["units"] == "mm", f"{file.name}: units")
                 of_layers.setdefault(properties["layer"], []).append(polygon)
+            check(not {"OFF", "FROZEN"} & set(of_layers), f"{file.name}: layers that are not seen")
             for k, polygon in enumerate(expected):
                 own = of_layers.get(f"L{k}", [])
                 check(len(own) == 1, f"{file.name}: layer L{k} has {len(own)} polygons")

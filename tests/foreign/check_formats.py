@@ -176,7 +176,10 @@ def reference_systems(folder):
             medial("axis", path, "-q", "-o", folder / "out.geojson")
             check(table(folder / "out.geojson").crs.to_epsg() == code, f"{path.name}: to GeoJSON")
             medial("axis", path, "-o", folder / "out.parquet")
-            check(table(folder / "out.parquet").crs.to_epsg() == code, f"{path.name}: to Parquet")
+            # ESRI has eastings first, whatever the order of EPSG is.
+            crs = table(folder / "out.parquet").crs
+            check(crs.to_json_dict()["id"]["code"] == code, f"{path.name}: to Parquet")
+            check(crs.to_dict() == pyproj.CRS(code).to_dict(), f"{path.name}: to Parquet")
     frame = geopandas.GeoDataFrame({"name": ["a"]}, geometry=[square], crs=4326)
     for extension in DRIVERS:
         path = folder / f"degrees.{extension}"
@@ -198,7 +201,11 @@ def dialects(folder):
         known = pyproj.CRS.from_user_input(code)
         geopandas.GeoDataFrame({"a": [1]}, geometry=[square], crs=known).to_file(source, driver="GPKG")
         for version in ("WKT1_GDAL", "WKT1_ESRI", "WKT2_2019", "WKT2_2015"):
-            text = known.to_wkt(version)
+            try:
+                text = known.to_wkt(version)
+            except pyproj.exceptions.CRSError:
+                # The dialect has no words for it.
+                continue
             with sqlite3.connect(source) as base:
                 # Nobody knows its number.
                 base.execute("UPDATE gpkg_spatial_ref_sys SET organization = 'NONE', definition = ? WHERE "
@@ -371,7 +378,7 @@ def main(data):
             spatial_filters(pathlib.Path(folder))
             geopackage_rules(pathlib.Path(folder))
             parquet_rules(pathlib.Path(folder))
-    for checks in (heights_and_points, reference_systems, values, shapefiles, sequences):
+    for checks in (heights_and_points, reference_systems, dialects, values, shapefiles, sequences):
         with tempfile.TemporaryDirectory() as folder:
             checks(pathlib.Path(folder))
     print(f"{passed} passed, 0 failed")

@@ -124,7 +124,7 @@ fn what_does_not_come_back_in_time_is_left_out_alone() {
     let ring: Vec<String> = (0..=800).map(|k| corner(k % 800)).collect();
     let star = format!("POLYGON (({}))\n", ring.join(", "));
     let input = format!("{SQUARE}{star}{SQUARE}");
-    let args = ["reconstruct", "-", "--method", "disks", "--step", "0.0003", "--to", "wkt"];
+    let args = ["reconstruct", "-", "--method", "disks", "--step", "0.05", "--to", "wkt"];
     let args = [&args[..], &["--max-seconds", "1", "--threads", "1", "--report", &report]].concat();
     let run = medial_with(&args, &input);
     assert_eq!(run.status, Some(3), "{}", run.errors);

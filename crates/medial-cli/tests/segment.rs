@@ -53,8 +53,7 @@ fn every_method_finds_the_four_regions() {
         let told = &found[1]["properties"];
         assert_eq!((&told["region"], &told["color"]), (&1.into(), &"#c81e1e".into()), "{method:?}");
         assert_eq!(found[0]["properties"]["n_holes"], 1);
-        let pixels: u64 =
-            found.iter().map(|f| f["properties"]["pixels"].as_u64().unwrap()).sum();
+        let pixels: u64 = found.iter().map(|f| f["properties"]["pixels"].as_u64().unwrap()).sum();
         assert_eq!(pixels, 39 * 30, "{method:?}");
         assert_eq!(found[2]["properties"]["pixels"], 39 * 3);
     }

@@ -182,8 +182,16 @@ fn of_a_table_that_breaks_off_the_beginning_is_used() {
         let file = path(&folder, &format!("whole.{format}"));
         let run = medial_with(&["reconstruct", "-", "-q", "-o", &file], &squares);
         assert_eq!(run.status, Some(0), "{}", run.errors);
-        let bytes = std::fs::read(&file).unwrap();
-        std::fs::write(&file, &bytes[..(bytes.len() as f64 * size) as usize]).unwrap();
+        let mut bytes = std::fs::read(&file).unwrap();
+        let end = (bytes.len() as f64 * size) as usize;
+        if format == "gpkg" {
+            // Cut off it has no table of contents; a fifth of its pages is wiped out instead.
+            let wiped = bytes.len() / 5;
+            bytes[end - wiped..end].fill(0xff);
+        } else {
+            bytes.truncate(end);
+        }
+        std::fs::write(&file, &bytes).unwrap();
         let report = path(&folder, "report.json");
         let out = path(&folder, "out.geojsonl");
         let run = medial(&["reconstruct", &file, "--report", &report, "-o", &out]);
@@ -193,6 +201,8 @@ fn of_a_table_that_breaks_off_the_beginning_is_used() {
         let report: serde_json::Value =
             serde_json::from_slice(&std::fs::read(&report).unwrap()).unwrap();
         let last = &report["features"].as_array().unwrap().last().unwrap()["entries"][0];
-        assert_eq!(last["code"], "broken_off", "{format}: {}", run.errors);
+        // The index of a shapefile still knows the records that are missing, and each is told.
+        let code = if format == "shp" { "malformed" } else { "broken_off" };
+        assert_eq!(last["code"], code, "{format}: {}", run.errors);
     }
 }

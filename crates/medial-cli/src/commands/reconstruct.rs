@@ -1,26 +1,28 @@
 use super::axis::pruned;
-use super::features::Run;
+use super::features::{Run, all_processors};
 use super::records::{POLYGONS, Plan};
 use super::sink::boundary;
 use crate::args::{Method, ReconstructArgs};
 use crate::failure::{Failure, Status};
 use crate::input::{Input, Opened};
 use crate::output::Output;
-use crate::parallel::kept;
+use crate::parallel::{Limit, kept, ordered};
 use crate::progress::Progress;
 use crate::report::Entry;
 use crate::timings::timed;
 use medial::axis::{Accuracy, Engine, MedialAxis, Side};
-use medial::engine::interior;
+use medial::engine::{EngineError, interior};
 use medial::geom::Point;
 use medial::ops::{
     Compressed, CompressedMask, Outline, boundary_distance, disks, polygons_of, signed_area,
     tangent_polygons, union_of_disks, without_crossings,
 };
 use medial::raster::outline;
+use medial_io::axis_document::AxisDocument;
 use medial_io::record::{self, Record, Shape, Value};
-use medial_io::{Feature, Format, Json, default_tolerance, image, maxis};
+use medial_io::{Error, Feature, Format, Json, default_tolerance, image, maxis};
 use std::io::IsTerminal as _;
+use std::ops::ControlFlow;
 
 /// Points along the axis of a feature, at most.
 const MOST_POINTS: f64 = 1e6;
@@ -52,7 +54,7 @@ pub fn run(args: &'static ReconstructArgs) -> Result<Status, Failure> {
                         "polygons are no PNG: that is for compressed images; name another --to";
                     Err(Failure::Usage(why.to_owned()))
                 }
-                [] => of_documents(args, &plan, &input),
+                [] => of_documents(args, &plan, kept(input)),
                 [(_, _, mask)] if is_png => as_image(args, &input, mask),
                 masks => of_masks(args, &plan, &input, masks),
             };
@@ -126,8 +128,21 @@ fn of_masks(
     Ok(Status::Done)
 }
 
+/// What became of a document.
+enum Document {
+    Done(Vec<u8>),
+    LeftOut(usize, Entry),
+    /// It has not come back in time, by its number among all.
+    GivenUp(usize),
+    Wrong(Error),
+}
+
 /// Axes that were computed before.
-fn of_documents(args: &ReconstructArgs, plan: &Plan, input: &Input) -> Result<Status, Failure> {
+fn of_documents(
+    args: &'static ReconstructArgs,
+    plan: &Plan,
+    input: &'static Input,
+) -> Result<Status, Failure> {
     if args.pruning.threshold().is_some() {
         let why = "axis documents are rebuilt as they are; prune them first, or give polygons";
         return Err(Failure::Usage(why.to_owned()));
@@ -136,25 +151,36 @@ fn of_documents(args: &ReconstructArgs, plan: &Plan, input: &Input) -> Result<St
     let mut sink = plan.sink(format, None, None, args.common.quiet)?;
     let progress = Progress::new(args.common.progress, args.common.quiet, None);
     let (mut done, mut left_out) = (0, 0);
-    for document in input.axes()? {
-        let document = document.map_err(|error| input.wrong(error))?;
-        let original = polygons_of(&document.axis).ok().map(|polygons| polygons.concat());
-        match rebuilt(args, &document.axis, original.as_ref()) {
-            Ok(record) => {
-                let source =
-                    Feature { index: document.feature, id: document.id, ..Feature::default() };
-                let mut bytes = Vec::new();
-                let engine = document.axis.engine;
-                record::write(&mut bytes, format, &source, Some(engine), COLUMNS, &[record]);
-                sink.write(&bytes)?;
+    let name = &input.name;
+    let limit = args.common.limit().map(|after| Limit { after, instead: Document::GivenUp });
+    let work = move |document: Result<AxisDocument, Error>| match document {
+        Ok(document) => of_document(args, format, document),
+        Err(error) => Document::Wrong(error),
+    };
+    let threads = args.common.threads.unwrap_or_else(all_processors);
+    let broke = ordered(input.axes()?, threads, work, limit.as_ref(), |document| {
+        match document {
+            Document::Done(bytes) => {
+                if let Err(failure) = sink.write(&bytes) {
+                    return ControlFlow::Break(failure);
+                }
                 done += 1;
+                return ControlFlow::Continue(());
             }
-            Err(entry) => {
-                let (name, feature) = (&input.name, document.feature);
+            Document::Wrong(error) => return ControlFlow::Break(input.wrong(error)),
+            Document::LeftOut(feature, entry) => {
                 progress.error(&format!("{name}: feature {feature}: {}", entry.message));
-                left_out += 1;
+            }
+            Document::GivenUp(number) => {
+                let entry = Entry::unfinished(&EngineError::TimeLimit);
+                progress.error(&format!("{name}: document {number}: {}", entry.message));
             }
         }
+        left_out += 1;
+        ControlFlow::Continue(())
+    });
+    if let Some(failure) = broke {
+        return Err(failure);
     }
     progress.finish();
     if done == 0 {
@@ -162,6 +188,20 @@ fn of_documents(args: &ReconstructArgs, plan: &Plan, input: &Input) -> Result<St
     }
     sink.finish(&[])?;
     Ok(if left_out > 0 { Status::LeftOut } else { Status::Done })
+}
+
+fn of_document(args: &ReconstructArgs, format: Format, document: AxisDocument) -> Document {
+    let original = polygons_of(&document.axis).ok().map(|polygons| polygons.concat());
+    match rebuilt(args, &document.axis, original.as_ref()) {
+        Ok(record) => {
+            let source = Feature { index: document.feature, id: document.id, ..Feature::default() };
+            let mut bytes = Vec::new();
+            let engine = document.axis.engine;
+            record::write(&mut bytes, format, &source, Some(engine), COLUMNS, &[record]);
+            Document::Done(bytes)
+        }
+        Err(entry) => Document::LeftOut(document.feature, entry),
+    }
 }
 
 /// The polygons of an axis, with their distance from the rings it was made of, if they are known.

@@ -37,7 +37,7 @@ pub(super) fn of_first(name: &str) -> Option<&'static Method> {
     METHODS
         .iter()
         .find(|method| is_name(&method.first))
-        .or_else(|| METHODS.iter().find(|method| method.esri.iter().any(|known| is_name(known))))
+        .or_else(|| METHODS.iter().find(|method| method.esri.iter().any(is_name)))
 }
 
 /// The method with a number at EPSG.

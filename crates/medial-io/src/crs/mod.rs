@@ -1,8 +1,10 @@
 //! Coordinate reference systems, as far as they can be told without a library of projections.
 
 mod esri;
+mod first;
 mod methods;
 mod node;
+mod parts;
 mod projjson;
 mod wkt;
 
@@ -77,8 +79,10 @@ impl Crs {
     pub fn of_wkt(wkt: &str) -> Self {
         let wkt = wkt.trim();
         let epsg = |code| ("EPSG".to_owned(), code);
-        let authority = identifier(wkt)
-            .or_else(|| esri::code(&name_in(wkt)?).map(|code| epsg(code.to_string())));
+        let of_name = || esri::code(&name_in(wkt)?).map(|code| epsg(code.to_string()));
+        // A vertical system behind the first one makes another one of both.
+        let is_one = Node::read_all(wkt).is_none_or(|nodes| nodes.len() == 1);
+        let authority = if is_one { identifier(wkt).or_else(of_name) } else { None };
         Self { authority, wkt: Some(wkt.to_owned()), ..Self::default() }
     }
 
@@ -374,6 +378,8 @@ mod tests {
         assert_eq!(of("ETRS_1989_UTM_Zone_32N"), Some(25832));
         assert_eq!(of("RD_New"), Some(28992));
         assert_eq!(of("WGS_1984_UTM_Zone_99N"), None);
+        let both = Crs::of_wkt("PROJCS[\"RD_New\"],VERTCS[\"NAP\"]");
+        assert_eq!(both.epsg_code(), None, "that is of the first one only");
     }
 
     #[test]

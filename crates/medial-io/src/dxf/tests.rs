@@ -221,17 +221,17 @@ fn a_layer_that_is_not_there_is_refused() {
 
 #[test]
 fn splines_of_fit_points_are_read() {
-    // The closed one through the corners of a square of side 1: between two corners it bulges by
-    // 3/4 of a quarter, and by two thirds of that on the mean.
+    // The closed one through the corners of a square of side 1: control points lie a quarter outside.
     let square = "0=SPLINE 8=a 70=1 71=3 74=4 11=0 21=0 11=1 21=0 11=1 21=1 11=0 21=1";
     // A half wave, up at the start and down at the end, closed by a line.
     let wave = "0=SPLINE 8=b 70=0 71=3 74=2 12=0 22=5 13=0 23=-3 11=0 21=0 11=3 21=0 \
                 0=LINE 8=b 10=3 20=0 11=0 21=0";
     let read = features(&format!("{square} {wave}"));
     let read: Vec<Feature> = read.into_iter().map(Result::unwrap).collect();
-    // Control points lie a quarter outside: the area below such a curve is 0.25 * 3/5 on half of the chord.
-    near(area(&read[0]), 1.0 + 4.0 * 0.25 * 0.45);
-    near(area(&read[1]), 3.0 * 3.0 / 3.0 * 0.6);
+    // Below (0, 0), (1/4, 1/4), (3/4, 1/4), (1, 0) lies the integral of 3/4 t (1 - t) (3/4 + 3/2 t (1 - t)).
+    near(area(&read[0]), 1.0 + 4.0 * (9.0 / 96.0 + 9.0 / 240.0));
+    // Below (0, 0), (0, 1), (3, 1), (3, 0) that of 3 t (1 - t) 18 t (1 - t).
+    near(area(&read[1]), 54.0 / 30.0);
 }
 
 #[test]

@@ -31,6 +31,7 @@ use roxmltree::{Document, Node, ParsingOptions};
 use shape::Subpath;
 use simplecss::StyleSheet;
 use std::collections::HashMap;
+use std::rc::Rc;
 use style::Style;
 use svgtypes::{Length, LengthUnit, NumberListParser, PointsParser, Transform, TransformOrigin};
 
@@ -84,7 +85,7 @@ pub fn read<'a>(text: &str, options: &ReadOptions) -> Result<Layer<'a>, Error> {
         view,
         layer: None,
         group: None,
-        clipped: false,
+        clipped: None,
         marked: false,
         depth: 0,
     };
@@ -160,7 +161,8 @@ struct Place<'a> {
     view: Point,
     layer: Option<&'a str>,
     group: Option<&'a str>,
-    clipped: bool,
+    /// What cuts it off, as it is written.
+    clipped: Option<Rc<str>>,
     /// Whether the lines of the element have arrows or the like.
     marked: bool,
     depth: usize,
@@ -200,9 +202,11 @@ impl<'a, 'input> Walker<'a, 'input> {
             return;
         }
         let mut place = Place { depth: place.depth + 1, ..place.clone() };
-        place.clipped |= ["clip-path", "mask"]
-            .iter()
-            .any(|name| style.get(name).is_some_and(|value| value != "none"));
+        for name in ["clip-path", "mask"] {
+            if let Some(value) = style.get(name).filter(|value| *value != "none") {
+                place.clipped = Some(format!("{name} {value}").into());
+            }
+        }
         place.marked =
             MARKERS.iter().any(|name| style.get(name).is_some_and(|value| value != "none"));
         match self.transform(&style, place.view) {
@@ -486,10 +490,10 @@ impl<'a, 'input> Walker<'a, 'input> {
         add("group", place.group);
         add("layer", place.layer);
         let mut notes = Vec::new();
-        if place.clipped {
+        if let Some(clip) = &place.clipped {
             notes.push(Note {
                 code: "clip_ignored",
-                text: format!("a clip path or mask of the {name} is ignored"),
+                text: format!("the {clip} of the {name} is ignored"),
             });
         }
         if part == "stroke" && place.marked {
