@@ -554,12 +554,15 @@ impl MedialAxis {
     #[inline]
     #[must_use]
     pub fn curve(&self, path: &Path) -> Curve {
-        let end = |k: u32| {
-            let Keypoint { position, radius, .. } = self.keypoints().at(k);
-            (position, radius)
-        };
-        let sites = [path.left, path.right].map(|site| self.site_shape(site));
-        self.curve_between(&sites, [path.from, path.to].map(end))
+        let sites = [self.site_shape(path.left), self.site_shape(path.right)];
+        self.curve_between(&sites, [self.disk(path.from), self.disk(path.to)])
+    }
+
+    /// The maximal disk at a keypoint.
+    #[inline(always)]
+    pub(crate) fn disk(&self, keypoint: u32) -> (Point, f64) {
+        let Keypoint { position, radius, .. } = self.keypoints().at(keypoint);
+        (position, radius)
     }
 
     /// The curve of a path with these sites and disks at its ends: straight between samples.
@@ -611,11 +614,8 @@ impl MedialAxis {
     /// of its ends.
     #[inline(always)]
     fn line_or_parabola(&self, path: &Path) -> Result<f64, (f64, [f64; 2])> {
-        let [left, right] = [path.left, path.right].map(|site| self.site_shape(site));
-        let [from, to] = [path.from, path.to].map(|k| {
-            let Keypoint { position, radius, .. } = self.keypoints().at(k);
-            (position, radius)
-        });
+        let (left, right) = (self.site_shape(path.left), self.site_shape(path.right));
+        let (from, to) = (self.disk(path.from), self.disk(path.to));
         let frame = match (left.kind, right.kind) {
             (SiteKind::Vertex, SiteKind::Edge) if self.accuracy == Accuracy::Exact => {
                 Frame::new(left.a, &right)
@@ -627,7 +627,7 @@ impl MedialAxis {
         };
         match frame {
             None => Ok((to.0 - from.0).norm()),
-            Some(frame) => Err((frame.d, [from, to].map(|end| frame.position(end)))),
+            Some(frame) => Err((frame.d, [frame.position(from), frame.position(to)])),
         }
     }
 }

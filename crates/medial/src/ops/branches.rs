@@ -274,11 +274,8 @@ impl<'a> Branches<'a> {
             // A loop at one keypoint is passed from its start.
             let forwards = path.from == keypoint;
             let path = if forwards { path } else { path.reversed() };
-            let sites = [path.left, path.right].map(|site| axis.site_shape(site));
-            let disks = [path.from, path.to].map(|keypoint| {
-                let end = axis.keypoints().at(keypoint);
-                (end.position, end.radius)
-            });
+            let sites = [axis.site_shape(path.left), axis.site_shape(path.right)];
+            let disks = [axis.disk(path.from), axis.disk(path.to)];
             banks[0].pass(path.left, &sites[0], disks[0].0);
             banks[1].pass(path.right, &sites[1], disks[0].0);
             self.passed.push(2 * number + u32::from(!forwards));

@@ -138,7 +138,7 @@ impl<'a> Ground<'a> {
         // The name takes longest.
         edge.start == start
             && end == if is_edge { domain.edge(edge.next).start } else { start }
-            && Name::of(domain, element) == Name::from(site)
+            && domain.is_from(element, [site.polygon, site.ring, site.index, site.part])
     }
 
     /// An element as an axis lists it.

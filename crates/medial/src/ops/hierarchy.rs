@@ -33,7 +33,7 @@ use super::measure::Measure;
 use super::rest::{Pruned, Rest};
 use super::scale::Swallowing;
 use crate::axis::{
-    Accuracy, Curve, Keypoint, KeypointKind, MedialAxis, Path, Side, bisected, crossing,
+    Accuracy, Curve, KeypointKind, MedialAxis, Path, Side, bisected, crossing,
 };
 use crate::check::Name;
 use crate::domain::{Domain, Site};
@@ -253,15 +253,15 @@ impl<'a> Hierarchy<'a> {
 
     /// The path as the fire runs through it from one end, with what is known there.
     pub(super) fn limb(&self, step: &Step, reach: f64, far: (f64, u32)) -> Limb<'_> {
-        let [(left, first), (right, _)] =
-            [step.left, step.right].map(|site| self.governors[site as usize]);
+        let (left, first) = self.governors[step.left as usize];
+        let (right, _) = self.governors[step.right as usize];
         Limb {
             hierarchy: self,
             step: *step,
             left,
             right,
             first,
-            disks: [step.from, step.to].map(|keypoint| self.disk(keypoint)),
+            disks: [self.disk(step.from), self.disk(step.to)],
             curve: OnceCell::new(),
             reach,
             far: Cell::new(far),
@@ -333,8 +333,7 @@ impl<'a> Hierarchy<'a> {
     /// The disk of a keypoint.
     #[inline]
     pub(super) fn disk(&self, keypoint: u32) -> (Point, f64) {
-        let Keypoint { position, radius, .. } = self.axis.keypoints().at(keypoint);
-        (position, radius)
+        self.axis.disk(keypoint)
     }
 
     /// The squared distance of the farthest of the corners behind a path that burns, and which it is; one
