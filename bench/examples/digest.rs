@@ -94,12 +94,16 @@ fn each(domain: &Domain, axis: &MedialAxis, mut done: impl FnMut(&str, &dyn Debu
         }
     }
     for count in [1, 3] {
-        for (name, route) in [("longest", Route::Longest), ("label", Route::Label { height: None })] {
+        for (name, route) in [("longest", Route::Longest), ("label", Route::Label { height: None })]
+        {
             let mut options = CenterlineOptions { count, route, ..CenterlineOptions::default() };
             done(&format!("centerline/{name}/{count}"), &centerlines(domain, axis, &options));
             for measure in [Measure::Excess, Measure::Prominence, Measure::Erosion] {
                 options.ends = (measure, 1e6);
-                done(&format!("centerline/{name}/{count}/{measure}"), &centerlines(domain, axis, &options));
+                done(
+                    &format!("centerline/{name}/{count}/{measure}"),
+                    &centerlines(domain, axis, &options),
+                );
             }
         }
     }

@@ -1,7 +1,7 @@
 //! Where edges and corners come from in the input: a few numbers a walk, records where rings touch.
 
-use super::{Domain, Site};
 use super::status::NONE;
+use super::{Domain, Site};
 
 /// Where an edge, and the corner at its start, come from in the input.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]

@@ -216,8 +216,7 @@ impl Hierarchy<'_> {
                 continue;
             }
             let limb = self.limb(step, 0.0, fars[place]);
-            let part =
-                Part { path, forwards, from: step.from, to: step.to, end: 1.0, root: None };
+            let part = Part { path, forwards, from: step.from, to: step.to, end: 1.0, root: None };
             if let Some((cut, excess)) = cut(&part, &limb, threshold, less == less::AT_START) {
                 rest.error = rest.error.max(excess);
                 rest.cut(path, forwards, if forwards { cut } else { 1.0 - cut });

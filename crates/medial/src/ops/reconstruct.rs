@@ -176,9 +176,8 @@ pub fn tangent_polygons(
         }
         rings
     };
-    let components = turns.components(|around| {
-        tangent_ring(axis, &turns, &around.collect::<Vec<u32>>(), step)
-    });
+    let components =
+        turns.components(|around| tangent_ring(axis, &turns, &around.collect::<Vec<u32>>(), step));
     Ok(components.into_iter().map(polygon).collect())
 }
 

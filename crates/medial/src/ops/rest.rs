@@ -205,7 +205,8 @@ impl<'a> Rest<'a> {
             return Pruned { axis: axis.clone(), error: 0.0, origins };
         }
         let mut origins = Vec::with_capacity(axis.paths().len());
-        let (axis, error) = self.listed(roots, lost, |path, part| origins.push(Origin { path, part }));
+        let (axis, error) =
+            self.listed(roots, lost, |path, part| origins.push(Origin { path, part }));
         Pruned { axis, error, origins }
     }
 

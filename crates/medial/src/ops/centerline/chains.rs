@@ -104,7 +104,8 @@ impl<'g, 'a> Chains<'g, 'a> {
                 let n_pieces = pieces.len() as u32 - begin;
                 // From its other end: what lies there has its numbers already.
                 let is_known = end == NONE
-                    || n_pieces == 1 && (end < hub || end == hub && is_passed(&chains, &pieces, first));
+                    || n_pieces == 1
+                        && (end < hub || end == hub && is_passed(&chains, &pieces, first));
                 if is_known {
                     pieces.truncate(begin as usize);
                     lengths.truncate(begin as usize);
@@ -281,7 +282,9 @@ impl<'g, 'a> Chains<'g, 'a> {
                     before < there && before + step.length == there
                 });
                 steps.min_by(|a, b| {
-                    let of = |step: &Step| (distances.to[step.to as usize], self.node(step.to), step.piece);
+                    let of = |step: &Step| {
+                        (distances.to[step.to as usize], self.node(step.to), step.piece)
+                    };
                     let (a, b) = (of(a), of(b));
                     a.0.total_cmp(&b.0).then((a.1, a.2).cmp(&(b.1, b.2)))
                 })
@@ -325,7 +328,8 @@ impl<'g, 'a> Chains<'g, 'a> {
                 return way;
             }
             for step in self.steps(node) {
-                let is_level = distances.to[step.to as usize] == there && there + step.length == there;
+                let is_level =
+                    distances.to[step.to as usize] == there && there + step.length == there;
                 if is_level && open.iter().all(|&(known, _, _)| known != step.to) {
                     open.push((step.to, step.piece, next));
                 }
@@ -338,7 +342,8 @@ impl<'g, 'a> Chains<'g, 'a> {
     /// The way from where distances are measured from to a node.
     pub fn way(&self, distances: &Distances, to: u32) -> Way {
         let back = self.back(distances, to).into_iter().rev();
-        let pieces = back.map(|(piece, from)| (piece, self.graph.starts_at(piece, self.node(from))));
+        let pieces =
+            back.map(|(piece, from)| (piece, self.graph.starts_at(piece, self.node(from))));
         let (value, is_best) = (distances.to[to as usize], self.graph.is_whole);
         Way { pieces: pieces.collect(), value, is_best }
     }

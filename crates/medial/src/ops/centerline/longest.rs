@@ -73,16 +73,21 @@ fn around_cycles(graph: &Graph, component: &[u32], ends: &[u32], lone: Option<u3
         let mut tried = 0;
         loop {
             // The farthest from the middle that may be farther from another one.
-            let next = (0..).zip(around.iter().zip(&bounds)).fold(None, |best, (k, (&away, &bound))| {
-                if 2.0 * away <= length || bound * SURE <= length {
-                    return best;
-                }
-                let node = |k: usize| chains.node(ends.number(k));
-                match best {
-                    Some((other, far)) if far > away || far == away && node(other) < node(k) => best,
-                    _ => Some((k, away)),
-                }
-            });
+            let next =
+                (0..).zip(around.iter().zip(&bounds)).fold(None, |best, (k, (&away, &bound))| {
+                    if 2.0 * away <= length || bound * SURE <= length {
+                        return best;
+                    }
+                    let node = |k: usize| chains.node(ends.number(k));
+                    match best {
+                        Some((other, far))
+                            if far > away || far == away && node(other) < node(k) =>
+                        {
+                            best
+                        }
+                        _ => Some((k, away)),
+                    }
+                });
             let Some((next, _)) = next else { break };
             if tried * chains.len() > MOST_VISITED {
                 is_best = false;
