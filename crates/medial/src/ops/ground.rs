@@ -76,11 +76,10 @@ impl<'a> Ground<'a> {
         let mut governor = |site: axis::Site| -> Result<Site, Name> {
             /// Corners without a cell between two that have one, mostly.
             const NEAR: usize = 4;
-            for place in next..n_elements.min(next + NEAR) {
-                if self.is_named(element(place), &site) {
-                    next = place + 1;
-                    return Ok(element(place));
-                }
+            let mut ahead = next..n_elements.min(next + NEAR);
+            if let Some(place) = ahead.find(|&place| self.is_named(element(place), &site)) {
+                next = place + 1;
+                return Ok(element(place));
             }
             let names = sorted.get_or_insert_with(|| {
                 let named = |site| (Name::of(self.domain(), site), site);
