@@ -10,7 +10,7 @@
 //! polynomials or single roots of it. Public parameters run from 0 at `from` to 1 at `to` and are
 //! affine in the natural parameter, so a parameter of a parabola is also that of its Bézier form.
 
-use super::hyperbolic::{asinh, asinh_of_little, hypot, is_little, is_usual};
+use super::hyperbolic::{asinh, hypot};
 use super::sites::SiteShape;
 use super::{Accuracy, CurveKind, Keypoint, MedialAxis, Path, Site, SiteKind};
 use crate::geom::Point;
@@ -554,12 +554,15 @@ impl MedialAxis {
     #[inline]
     #[must_use]
     pub fn curve(&self, path: &Path) -> Curve {
-        let end = |k: u32| {
-            let Keypoint { position, radius, .. } = self.keypoints().at(k);
-            (position, radius)
-        };
-        let sites = [path.left, path.right].map(|site| self.site_shape(site));
-        self.curve_between(&sites, [path.from, path.to].map(end))
+        let sites = [self.site_shape(path.left), self.site_shape(path.right)];
+        self.curve_between(&sites, [self.disk(path.from), self.disk(path.to)])
+    }
+
+    /// The maximal disk at a keypoint.
+    #[inline(always)]
+    pub(crate) fn disk(&self, keypoint: u32) -> (Point, f64) {
+        let Keypoint { position, radius, .. } = self.keypoints().at(keypoint);
+        (position, radius)
     }
 
     /// The curve of a path with these sites and disks at its ends: straight between samples.
@@ -580,112 +583,11 @@ impl MedialAxis {
             },
         }
     }
-
-    /// The length of that curve.
-    #[inline]
-    pub(crate) fn length_of(&self, path: &Path) -> f64 {
-        match self.line_or_parabola(path) {
-            Ok(length) => length,
-            Err((d, x)) => Spread::new(d, x).length_of_parabola(d),
-        }
-    }
-
-    /// The lengths of all paths. Those of parabolas are found side by side.
-    pub(crate) fn lengths(&self, paths: &[Path]) -> Vec<f64> {
-        let mut lengths = Vec::with_capacity(paths.len());
-        let mut row = Row::default();
-        for path in paths {
-            lengths.push(self.line_or_parabola(path).unwrap_or_else(|(d, x)| {
-                row.add(lengths.len(), d, x);
-                0.0
-            }));
-            if row.len == ROW {
-                row.finish(&mut lengths);
-            }
-        }
-        row.finish(&mut lengths);
-        lengths
-    }
-
-    /// The length of a path that is a line; else the distance of its corner from its edge and the positions
-    /// of its ends.
-    #[inline(always)]
-    fn line_or_parabola(&self, path: &Path) -> Result<f64, (f64, [f64; 2])> {
-        let [left, right] = [path.left, path.right].map(|site| self.site_shape(site));
-        let [from, to] = [path.from, path.to].map(|k| {
-            let Keypoint { position, radius, .. } = self.keypoints().at(k);
-            (position, radius)
-        });
-        let frame = match (left.kind, right.kind) {
-            (SiteKind::Vertex, SiteKind::Edge) if self.accuracy == Accuracy::Exact => {
-                Frame::new(left.a, &right)
-            }
-            (SiteKind::Edge, SiteKind::Vertex) if self.accuracy == Accuracy::Exact => {
-                Frame::new(right.a, &left)
-            }
-            _ => None,
-        };
-        match frame {
-            None => Ok((to.0 - from.0).norm()),
-            Some(frame) => Err((frame.d, [from, to].map(|end| frame.position(end)))),
-        }
-    }
-}
-
-/// Parabolas whose lengths are found side by side: plain loops, which compilers turn into vector
-/// instructions, with the same operations in the same order as for one.
-struct Row {
-    len: usize,
-    /// Where each length goes.
-    places: [usize; ROW],
-    d: [f64; ROW],
-    x: [[f64; ROW]; 2],
-}
-
-/// Parabolas side by side.
-const ROW: usize = 64;
-
-impl Default for Row {
-    fn default() -> Self {
-        Self { len: 0, places: [0; ROW], d: [1.0; ROW], x: [[0.0; ROW]; 2] }
-    }
-}
-
-impl Row {
-    #[inline]
-    fn add(&mut self, place: usize, d: f64, [x1, x2]: [f64; 2]) {
-        let k = self.len;
-        (self.places[k], self.d[k], self.x[0][k], self.x[1][k]) = (place, d, x1, x2);
-        self.len += 1;
-    }
-
-    fn finish(&mut self, lengths: &mut [f64]) {
-        let Self { len, places, d, x: [x1, x2] } = self;
-        let mut row = [0.0; ROW];
-        // Whether it is the length: not where squares overflow or vanish, or where a series is too short.
-        let mut is_it = [false; ROW];
-        for k in 0..ROW {
-            let (d, x1, x2) = (d[k], x1[k], x2[k]);
-            let squares = [x1 * x1 + d * d, x2 * x2 + d * d];
-            let w = squares.map(f64::sqrt);
-            let span = x2 - x1;
-            let rise = span * (x1 + x2) / (w[0] + w[1]);
-            let sinh = (span * w[0] - x1 * rise) / (d * d);
-            let chordal = (span * w[1] + x1 * rise) / (2.0 * d);
-            row[k] = (chordal + 0.5 * d * asinh_of_little(sinh)).abs();
-            is_it[k] = is_usual(squares[0]) & is_usual(squares[1]) & is_little(sinh);
-        }
-        for k in 0..*len {
-            let of_one = || Spread::new(d[k], [x1[k], x2[k]]).length_of_parabola(d[k]);
-            lengths[places[k]] = if is_it[k] { row[k] } else { of_one() };
-        }
-        *len = 0;
-    }
 }
 
 /// How far both ends of a curve are apart in the parameter `t` of `x = d sinh t`.
 #[derive(Clone, Copy, Debug)]
-struct Spread {
+pub(super) struct Spread {
     /// `x2 - x1`.
     span: f64,
     /// `d cosh t` at both ends, and the difference of the two.
@@ -699,7 +601,7 @@ struct Spread {
 
 impl Spread {
     #[inline]
-    fn new(d: f64, [x1, x2]: [f64; 2]) -> Self {
+    pub fn new(d: f64, [x1, x2]: [f64; 2]) -> Self {
         let w = [hypot(x1, d), hypot(x2, d)];
         let span = x2 - x1;
         let rise = span * (x1 + x2) / (w[0] + w[1]); // w2 - w1 without cancellation
@@ -709,7 +611,7 @@ impl Spread {
 
     /// The length of the parabola whose focus is `d` from its line.
     #[inline]
-    fn length_of_parabola(&self, d: f64) -> f64 {
+    pub fn length_of_parabola(&self, d: f64) -> f64 {
         let chordal = (self.span * self.w[1] + self.x1 * self.rise) / (2.0 * d);
         (chordal + 0.5 * d * self.difference).abs()
     }
@@ -734,8 +636,8 @@ fn parabola(focus: Point, edge: &SiteShape, from: (Point, f64), to: (Point, f64)
 
 /// Where positions along a parabola are measured: from its focus along its edge.
 #[derive(Clone, Copy)]
-struct Frame {
-    d: f64,
+pub(super) struct Frame {
+    pub d: f64,
     focus: Point,
     tangent: Point,
 }
@@ -743,7 +645,7 @@ struct Frame {
 impl Frame {
     /// That of a corner and an edge; none if the corner lies on the line of the edge.
     #[inline]
-    fn new(focus: Point, edge: &SiteShape) -> Option<Self> {
+    pub fn new(focus: Point, edge: &SiteShape) -> Option<Self> {
         // On the exterior the focus lies to the right of the edge.
         let across = accurate_cross(edge.a, edge.b, focus);
         let direction = if across < 0.0 { edge.a - edge.b } else { edge.b - edge.a };
@@ -756,7 +658,7 @@ impl Frame {
     }
 
     #[inline]
-    fn position(&self, (centre, radius): (Point, f64)) -> f64 {
+    pub fn position(&self, (centre, radius): (Point, f64)) -> f64 {
         let x = self.tangent.dot(centre - self.focus);
         // Far from the apex the radius gives the better value: x² = d (2r - d).
         let square = self.d * (2.0 * radius - self.d);

@@ -168,17 +168,24 @@ impl KeypointTable {
     }
 
     /// The place of a governor of a keypoint in that row.
-    #[inline]
+    #[inline(always)]
     pub fn place_of(&self, keypoint: u32, governor: u32) -> Option<usize> {
         let [a, b, c] = self.lists[keypoint as usize];
         if c == MORE {
-            let place = self.governors(keypoint).iter().position(|&known| known == governor);
-            return place.map(|place| self.places(keypoint).start + place);
+            return self.place_of_many(keypoint, governor);
         }
         // Which of the three it is cannot be foreseen, so nothing branches on it.
         let place = if b == governor { 1 } else { 2 };
         let place = if a == governor { 0 } else { place };
-        (place < 2 || c == governor).then_some(3 * keypoint as usize + place)
+        let is_one = (a == governor) | (b == governor) | (c == governor);
+        is_one.then_some(3 * keypoint as usize + place)
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn place_of_many(&self, keypoint: u32, governor: u32) -> Option<usize> {
+        let place = self.governors(keypoint).iter().position(|&known| known == governor);
+        place.map(|place| self.places(keypoint).start + place)
     }
 
     /// A table of the keypoints of which something is left, in their order, with room for so many and so many

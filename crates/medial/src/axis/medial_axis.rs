@@ -216,7 +216,7 @@ impl MedialAxis {
     }
 
     /// The place of a governor of a keypoint in that row.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn place_of(&self, keypoint: u32, governor: u32) -> Option<usize> {
         self.keypoints.place_of(keypoint, governor)
     }

@@ -4,6 +4,7 @@ mod curve;
 mod draw;
 mod hyperbolic;
 mod keypoints;
+mod lengths;
 mod medial_axis;
 mod names;
 mod paths;

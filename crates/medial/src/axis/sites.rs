@@ -187,13 +187,22 @@ impl SiteTable {
     /// All sites, without a search for the ring of each.
     pub fn in_order(&self) -> impl Iterator<Item = Site> {
         let mut runs = self.runs.iter().peekable();
+        let mut listed = self.listed.iter();
         let (mut polygon, mut ring) = (0, 0);
-        (0..self.len()).map(move |number| {
+        (0..).zip(&self.records).map(move |(number, &Record { start, index })| {
             if let Some(run) = runs.next_if(|run| run.first == number) {
                 (polygon, ring) = (run.polygon, run.ring);
             }
-            let (SiteShape { kind, a, b }, part) = self.shape_and_part(number);
-            let index = self.records[number as usize].index;
+            let point = start & POINT;
+            let (kind, usual) = match start & VERTEX {
+                0 => (SiteKind::Edge, point + 1),
+                _ => (SiteKind::Vertex, point),
+            };
+            let (part, end) = match start & LISTED {
+                0 => (0, usual),
+                _ => listed.next().map_or((0, usual), |listed| (listed.part, listed.end)),
+            };
+            let (a, b) = (self.points[point as usize], self.points[end as usize]);
             Site { kind, polygon, ring, index, part, a, b }
         })
     }

@@ -1,7 +1,7 @@
 //! Where edges and corners come from in the input: a few numbers a walk, records where rings touch.
 
-use super::Domain;
 use super::status::NONE;
+use super::{Domain, Site};
 
 /// Where an edge, and the corner at its start, come from in the input.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -61,6 +61,29 @@ pub(super) enum Source {
 }
 
 impl Domain {
+    /// Whether a site comes from that polygon, ring, position and part.
+    #[inline]
+    pub(crate) fn is_from(&self, site: Site, [polygon, ring, index, part]: [u32; 4]) -> bool {
+        let edge = site.index();
+        let walk = self.edge(edge).walk as usize;
+        let (source, walk) = (self.origins.sources[walk], &self.walks[walk]);
+        if let Source::Ring { ring: own, given: NONE, reversed: false } = source {
+            // A corner has the position of the edge that starts there.
+            return polygon == walk.polygon
+                && ring == own
+                && index == edge - walk.first
+                && part == 0;
+        }
+        let Origin { corner, .. } = self.origin(edge);
+        let own = if site.is_edge() {
+            let Origin { polygon, ring, index, part, .. } = self.origin(edge);
+            [polygon, ring, index, part]
+        } else {
+            [corner.polygon, corner.ring, corner.index, corner.part]
+        };
+        own == [polygon, ring, index, part]
+    }
+
     /// Where edge number `edge` and the corner at its start come from.
     #[inline]
     #[must_use]

@@ -211,16 +211,39 @@ pub fn branches(axis: &MedialAxis) -> Branches<'_> {
             branches.follow(&around, &mut is_used, [keypoint, around.first(keypoint)], true);
         }
     }
+    branches.measure();
     branches
 }
 
 /// A branch that is not at its end yet.
 struct Open {
+    /// Its number.
+    number: usize,
     /// Where its pieces start in their table.
     pieces: usize,
     sum: Sum,
     /// That of its last piece, if that has more than one part.
     piece: Option<Sum>,
+    banks: [Bank; 2],
+}
+
+/// Paths that are read before any of them is measured, so that they wait for memory together.
+const ROW: usize = 16;
+
+/// A path as a branch passes it: its governors, left and right, and the disks at its ends.
+#[derive(Clone, Copy)]
+struct Passed {
+    numbers: [u32; 2],
+    sites: [SiteShape; 2],
+    disks: [(Point, f64); 2],
+}
+
+impl Passed {
+    const NOTHING: Self = {
+        let nowhere = Point::new(0.0, 0.0);
+        let site = SiteShape { kind: SiteKind::Vertex, a: nowhere, b: nowhere };
+        Self { numbers: [NONE; 2], sites: [site; 2], disks: [(nowhere, 0.0); 2] }
+    };
 }
 
 /// The boundary on one side of a branch so far: its last site, and where on that it is met first.
@@ -252,7 +275,7 @@ impl<'a> Branches<'a> {
         (0..self.records.len()).map(|number| Branch { all: self, number })
     }
 
-    /// Adds the branch that leaves a keypoint by a path, unless that is passed already.
+    /// Adds the branch that leaves a keypoint by a path, unless that is passed already: only its way so far.
     fn follow(
         &mut self,
         around: &Incidence,
@@ -263,42 +286,85 @@ impl<'a> Branches<'a> {
         if is_used[number as usize] {
             return;
         }
-        let axis = self.axis;
-        let (passed, pieces) = (self.passed.len() as u32, self.pieces.len());
-        let mut open = Open { pieces, sum: Sum::NOTHING, piece: None };
-        let mut banks = [Bank { site: NONE, first: Point::default(), length: 0.0 }; 2];
+        let passed = self.passed.len() as u32;
+        let (extent, boundary) = (Sum::NOTHING.extent(), [0.0; 2]);
+        self.records.push(BranchRecord { passed, pieces: 0, is_closed, extent, boundary });
         let (mut keypoint, mut number) = (start, number);
         loop {
             is_used[number as usize] = true;
-            let path = axis.paths().at(number);
+            let [from, to] = self.axis.paths().ends(number);
             // A loop at one keypoint is passed from its start.
-            let forwards = path.from == keypoint;
-            let path = if forwards { path } else { path.reversed() };
-            let sites = [path.left, path.right].map(|site| axis.site_shape(site));
-            let disks = [path.from, path.to].map(|keypoint| {
-                let end = axis.keypoints().at(keypoint);
-                (end.position, end.radius)
-            });
-            banks[0].pass(path.left, &sites[0], disks[0].0);
-            banks[1].pass(path.right, &sites[1], disks[0].0);
+            let forwards = from == keypoint;
             self.passed.push(2 * number + u32::from(!forwards));
-            self.pass(&mut open, &sites, disks);
-            keypoint = path.to;
-            if let Some(next) = around.next(keypoint, is_used) {
-                number = next;
-                continue;
+            keypoint = if forwards { to } else { from };
+            match around.next(keypoint, is_used) {
+                Some(next) => number = next,
+                None => return,
             }
-            self.end_piece(&mut open);
-            let boundary = [0, 1].map(|side| banks[side].length_up_to(&sites[side], disks[1].0));
-            let (extent, pieces) = (open.sum.extent(), pieces as u32);
-            self.records.push(BranchRecord { passed, pieces, is_closed, extent, boundary });
-            return;
+        }
+    }
+
+    /// Finds the pieces of all branches, and measures them.
+    fn measure(&mut self) {
+        let axis = self.axis;
+        let passed = std::mem::take(&mut self.passed);
+        let mut paths = [Path { from: 0, to: 0, left: 0, right: 0 }; ROW];
+        let mut row = [Passed::NOTHING; ROW];
+        let mut open = Open::new(0, 0);
+        let mut last = Passed::NOTHING;
+        let mut next = 0;
+        for (first, darts) in (0..).step_by(ROW).zip(passed.chunks(ROW)) {
+            for (path, &dart) in paths.iter_mut().zip(darts) {
+                let passed = axis.paths().at(dart / 2);
+                *path = if dart.is_multiple_of(2) { passed } else { passed.reversed() };
+            }
+            for (passed, path) in row.iter_mut().zip(&paths[..darts.len()]) {
+                *passed = Passed {
+                    numbers: [path.left, path.right],
+                    sites: [axis.site_shape(path.left), axis.site_shape(path.right)],
+                    disks: [axis.disk(path.from), axis.disk(path.to)],
+                };
+            }
+            for (place, passed) in (first..).zip(&row[..darts.len()]) {
+                if self.records.get(next).is_some_and(|record| record.passed == place) {
+                    if next > 0 {
+                        self.finish(&mut open, &last);
+                    }
+                    open = Open::new(next, self.pieces.len());
+                    next += 1;
+                }
+                for (side, bank) in open.banks.iter_mut().enumerate() {
+                    bank.pass(passed.numbers[side], &passed.sites[side], passed.disks[0].0);
+                }
+                self.pass(&mut open, place, &passed.sites, passed.disks);
+                last = *passed;
+            }
+        }
+        if next > 0 {
+            self.finish(&mut open, &last);
+        }
+        self.passed = passed;
+    }
+
+    /// Ends a branch, given its last path.
+    fn finish(&mut self, open: &mut Open, last: &Passed) {
+        self.end_piece(open);
+        let record = &mut self.records[open.number];
+        record.pieces = open.pieces as u32;
+        record.extent = open.sum.extent();
+        for (side, bank) in open.banks.iter().enumerate() {
+            record.boundary[side] = bank.length_up_to(&last.sites[side], last.disks[1].0);
         }
     }
 
     /// Adds a path between these sites at the end of the branch that is open.
-    fn pass(&mut self, open: &mut Open, sites: &[SiteShape; 2], disks: [(Point, f64); 2]) {
-        let place = self.passed.len() as u32 - 1;
+    fn pass(
+        &mut self,
+        open: &mut Open,
+        place: u32,
+        sites: &[SiteShape; 2],
+        disks: [(Point, f64); 2],
+    ) {
         if let [SiteKind::Edge, SiteKind::Edge] = [sites[0].kind, sites[1].kind] {
             let kind = kind_between_edges(sites);
             return self.add(open, kind, place, [false; 2], &Extent::of_line(disks));
@@ -347,6 +413,13 @@ impl<'a> Branches<'a> {
     fn path(&self, passed: u32) -> Path {
         let path = self.axis.paths().at(passed / 2);
         if passed.is_multiple_of(2) { path } else { path.reversed() }
+    }
+}
+
+impl Open {
+    fn new(number: usize, pieces: usize) -> Self {
+        let bank = Bank { site: NONE, first: Point::new(0.0, 0.0), length: 0.0 };
+        Self { number, pieces, sum: Sum::NOTHING, piece: None, banks: [bank; 2] }
     }
 }
 

@@ -76,11 +76,10 @@ impl<'a> Ground<'a> {
         let mut governor = |site: axis::Site| -> Result<Site, Name> {
             /// Corners without a cell between two that have one, mostly.
             const NEAR: usize = 4;
-            for place in next..n_elements.min(next + NEAR) {
-                if self.is_named(element(place), &site) {
-                    next = place + 1;
-                    return Ok(element(place));
-                }
+            let mut ahead = next..n_elements.min(next + NEAR);
+            if let Some(place) = ahead.find(|&place| self.is_named(element(place), &site)) {
+                next = place + 1;
+                return Ok(element(place));
             }
             let names = sorted.get_or_insert_with(|| {
                 let named = |site| (Name::of(self.domain(), site), site);
@@ -138,7 +137,7 @@ impl<'a> Ground<'a> {
         // The name takes longest.
         edge.start == start
             && end == if is_edge { domain.edge(edge.next).start } else { start }
-            && Name::of(domain, element) == Name::from(site)
+            && domain.is_from(element, [site.polygon, site.ring, site.index, site.part])
     }
 
     /// An element as an axis lists it.

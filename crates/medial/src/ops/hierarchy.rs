@@ -30,11 +30,9 @@ use std::sync::OnceLock;
 use super::fire::{Fire, Step};
 use super::ground::Ground;
 use super::measure::Measure;
-use super::rest::{Pruned, Rest};
+use super::rest::Pruned;
 use super::scale::Swallowing;
-use crate::axis::{
-    Accuracy, Curve, Keypoint, KeypointKind, MedialAxis, Path, Side, bisected, crossing,
-};
+use crate::axis::{Accuracy, Curve, KeypointKind, MedialAxis, Path, Side, bisected, crossing};
 use crate::check::Name;
 use crate::domain::{Domain, Site};
 use crate::engine::exterior_frame;
@@ -149,7 +147,7 @@ pub(super) struct Limb<'h> {
 }
 
 /// No corner.
-const NONE: u32 = u32::MAX;
+pub(super) const NONE: u32 = u32::MAX;
 
 /// Corners up to which each is asked how far it is.
 const FEW: u32 = 16;
@@ -253,15 +251,15 @@ impl<'a> Hierarchy<'a> {
 
     /// The path as the fire runs through it from one end, with what is known there.
     pub(super) fn limb(&self, step: &Step, reach: f64, far: (f64, u32)) -> Limb<'_> {
-        let [(left, first), (right, _)] =
-            [step.left, step.right].map(|site| self.governors[site as usize]);
+        let (left, first) = self.governors[step.left as usize];
+        let (right, _) = self.governors[step.right as usize];
         Limb {
             hierarchy: self,
             step: *step,
             left,
             right,
             first,
-            disks: [step.from, step.to].map(|keypoint| self.disk(keypoint)),
+            disks: [self.disk(step.from), self.disk(step.to)],
             curve: OnceCell::new(),
             reach,
             far: Cell::new(far),
@@ -330,11 +328,17 @@ impl<'a> Hierarchy<'a> {
         });
     }
 
+    /// Whether a path that burns has a corner among its governors.
+    #[inline]
+    pub(super) fn may_have_neck(&self, step: &Step) -> bool {
+        let is_edge = |site: u32| self.governors[site as usize].0.is_edge();
+        !(is_edge(step.left) && is_edge(step.right))
+    }
+
     /// The disk of a keypoint.
     #[inline]
     pub(super) fn disk(&self, keypoint: u32) -> (Point, f64) {
-        let Keypoint { position, radius, .. } = self.axis.keypoints().at(keypoint);
-        (position, radius)
+        self.axis.disk(keypoint)
     }
 
     /// The squared distance of the farthest of the corners behind a path that burns, and which it is; one
@@ -460,146 +464,6 @@ impl<'a> Hierarchy<'a> {
         paths.sort_by(|&a, &b| value(a).total_cmp(&value(b)));
         let values = paths.iter().map(|&path| value(path)).collect();
         Removal { measure, paths, values }
-    }
-
-    /// What is left if all that lies below a threshold is removed, from the leaves inwards.
-    ///
-    /// With [`Measure::Excess`] the threshold bounds the error.
-    #[must_use]
-    pub fn pruned(&self, measure: Measure, threshold: f64) -> Pruned {
-        let (rest, lost) = self.rest(measure, threshold);
-        rest.finish(&self.fire.roots, &lost)
-    }
-
-    /// What a threshold leaves, and what is lost up to keypoints.
-    pub(super) fn rest(&self, measure: Measure, threshold: f64) -> (Rest<'_>, Vec<(u32, f64)>) {
-        match measure {
-            Measure::Prominence => return self.without_less_prominent(threshold),
-            Measure::Excess | Measure::RelativeExcess if threshold > 0.0 => {
-                return self.rest_by_far(measure, threshold);
-            }
-            _ => {}
-        }
-        let mut cuts = Cuts::of(self.axis);
-        self.burn(threshold, |part, limb, before| cuts.add(measure, threshold, part, limb, before));
-        (cuts.rest, cuts.lost)
-    }
-
-    /// The same for measures by the farthest corner behind: mostly one that was far before is far enough.
-    fn rest_by_far(&self, measure: Measure, threshold: f64) -> (Rest<'_>, Vec<(u32, f64)>) {
-        let n = self.fire.n_places;
-        let mut is_reached = vec![false; n];
-        let mut fars = vec![NO_FAR; n];
-        let mut cuts = Cuts::of(self.axis);
-        for (place, step) in self.fire.steps.iter().enumerate() {
-            let next = step.next as usize;
-            if is_reached[place] {
-                is_reached[next] = true;
-                continue;
-            }
-            let (centre, radius) = self.disk(step.to);
-            let excess = |distance2: f64| (distance2.sqrt() - radius).max(0.0);
-            let value = |distance2: f64| match measure {
-                Measure::Excess => excess(distance2),
-                _ => ((distance2.sqrt() - radius) / radius).max(0.0),
-            };
-            let known = fars[place].1;
-            let mut is_enough = known != NONE && value(self.distance2(known, centre)) >= threshold;
-            let mut far = fars[place];
-            if !is_enough {
-                far = self.farthest_behind(step, centre, known);
-                is_enough = value(far.0) >= threshold;
-            }
-            if !is_enough && self.may_have_neck(step) {
-                let limb = self.limb(step, 0.0, fars[place]);
-                let neck = limb.neck(1.0);
-                is_enough = neck.is_some_and(|neck| limb.value(measure, neck) >= threshold);
-            }
-            let (path, forwards) = (step.dart / 2, step.dart.is_multiple_of(2));
-            if is_enough {
-                is_reached[next] = true;
-                let limb = self.limb(step, 0.0, far);
-                let part =
-                    Part { path, forwards, from: step.from, to: step.to, end: 1.0, root: None };
-                cuts.add_reached(measure, threshold, &part, &limb);
-                continue;
-            }
-            cuts.lost.push((step.to, excess(far.0)));
-            cuts.rest.remove(path);
-            if far.0 > fars[next].0 {
-                fars[next] = far;
-            }
-        }
-        for (part, step, place) in self.rooted() {
-            let place = place as usize;
-            if !is_reached[place] {
-                cuts.add(measure, threshold, &part, &self.limb(&step, 0.0, fars[place]), 0.0);
-            }
-        }
-        (cuts.rest, cuts.lost)
-    }
-
-    /// Whether a path that burns has a corner among its governors.
-    #[inline]
-    pub(super) fn may_have_neck(&self, step: &Step) -> bool {
-        let is_edge = |site: u32| self.governors[site as usize].0.is_edge();
-        !(is_edge(step.left) && is_edge(step.right))
-    }
-}
-
-/// What a threshold leaves so far.
-struct Cuts<'a> {
-    rest: Rest<'a>,
-    /// What is lost at a keypoint, if that is kept.
-    lost: Vec<(u32, f64)>,
-}
-
-impl<'a> Cuts<'a> {
-    fn of(axis: &'a MedialAxis) -> Self {
-        Self { rest: Rest::of(axis), lost: Vec::new() }
-    }
-
-    /// Removes what is below a threshold of a part on which the largest value before is given; gives the
-    /// largest value up to its end.
-    fn add(
-        &mut self,
-        measure: Measure,
-        threshold: f64,
-        part: &Part,
-        limb: &Limb<'_>,
-        before: f64,
-    ) -> f64 {
-        let first = before.max(limb.first(measure));
-        if first >= threshold {
-            return first;
-        }
-        let last = first.max(limb.most(measure, part.end));
-        if last < threshold {
-            self.remove(part, limb, part.end, true);
-        } else {
-            self.remove(part, limb, limb.reached(measure, threshold, part.end), false);
-        }
-        last
-    }
-
-    /// The same for a part on which the threshold is reached for sure.
-    fn add_reached(&mut self, measure: Measure, threshold: f64, part: &Part, limb: &Limb<'_>) {
-        if limb.first(measure) < threshold {
-            self.remove(part, limb, limb.reached(measure, threshold, part.end), false);
-        }
-    }
-
-    /// Removes a part up to a parameter, which may be all of it.
-    fn remove(&mut self, part: &Part, limb: &Limb<'_>, cut: f64, is_lost: bool) {
-        let excess = limb.value(Measure::Excess, cut);
-        if is_lost && part.root.is_none() {
-            self.lost.push((part.to, excess));
-        } else {
-            self.rest.error = self.rest.error.max(excess);
-        }
-        let along = if part.forwards { cut } else { 1.0 - cut };
-        let along = part.root.filter(|_| is_lost).unwrap_or(along);
-        self.rest.cut(part.path, part.forwards, along);
     }
 }
 
@@ -728,7 +592,7 @@ impl Limb<'_> {
     }
 
     /// The first parameter at which a measure reaches a threshold, if it does so before an end.
-    fn reached(&self, measure: Measure, threshold: f64, end: f64) -> f64 {
+    pub fn reached(&self, measure: Measure, threshold: f64, end: f64) -> f64 {
         // Between these places nearly every measure grows, falls or stays.
         let neck = self.neck(end);
         let middle = neck.filter(|&neck| self.value(measure, neck) >= threshold);
@@ -789,7 +653,7 @@ impl Limb<'_> {
     }
 
     /// The value at the start, as far as it may be larger than those of what ends there.
-    fn first(&self, measure: Measure) -> f64 {
+    pub fn first(&self, measure: Measure) -> f64 {
         match measure {
             // All corners behind are behind one of those.
             Measure::Excess => 0.0,
@@ -799,7 +663,7 @@ impl Limb<'_> {
     }
 
     /// The largest value up to a parameter, of those there and at the neck.
-    fn most(&self, measure: Measure, end: f64) -> f64 {
+    pub fn most(&self, measure: Measure, end: f64) -> f64 {
         let at_neck = self.neck(end).map_or(0.0, |neck| self.value(measure, neck));
         self.value(measure, end).max(at_neck)
     }

@@ -19,6 +19,7 @@ mod offset;
 mod outline;
 mod profile;
 mod prominence;
+mod prune;
 mod radii;
 mod reconstruct;
 mod rest;

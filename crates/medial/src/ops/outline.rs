@@ -353,27 +353,26 @@ impl<'a> Turns<'a> {
         let mut places = vec![EMPTY; axis.n_places()];
         let mut darts = Vec::with_capacity(2 * axis.paths().len());
         let mut disordered: Option<u32> = None;
-        let mut leave = |dart: u32, keypoint: u32, right: u32| match axis
-            .place_of(keypoint, right)
-            .map(|place| &mut places[place])
-        {
-            Some(place) if *place == EMPTY => *place = dart,
-            _ => disordered = Some(disordered.unwrap_or(keypoint).min(keypoint)),
-        };
         for (k, path) in (0..).zip(axis.paths()) {
-            leave(2 * k, path.from, path.right);
-            leave(2 * k + 1, path.to, path.left);
-            darts.extend([path.right, path.left].map(|right| Dart { next: EMPTY, right }));
+            let Path { from, to, left, right } = path;
+            for (dart, keypoint, right) in [(2 * k, from, right), (2 * k + 1, to, left)] {
+                match axis.place_of(keypoint, right).map(|place| &mut places[place]) {
+                    Some(place) if *place == EMPTY => *place = dart,
+                    _ => disordered = Some(disordered.unwrap_or(keypoint).min(keypoint)),
+                }
+                darts.push(Dart { next: EMPTY, right });
+            }
         }
         if let Some(keypoint) = disordered {
             return Err(OutlineError::Disordered { keypoint });
         }
         for keypoint in 0..axis.keypoints().len() as u32 {
             // What comes by one of them goes on by that after it.
-            let around = || places[axis.places(keypoint)].iter().filter(|dart| **dart != EMPTY);
-            if let Some(&last) = around().next_back() {
-                let mut before = last;
-                for &dart in around() {
+            let around = &places[axis.places(keypoint)];
+            let Some(&last) = around.iter().rev().find(|dart| **dart != EMPTY) else { continue };
+            let mut before = last;
+            for &dart in around {
+                if dart != EMPTY {
                     darts[before as usize ^ 1].next = dart;
                     before = dart;
                 }
@@ -452,7 +451,7 @@ impl<'a> Turns<'a> {
         const PASSED: usize = 3;
         // The first contour may be all there is; of many each is short.
         let is_first = around.left == self.darts.len();
-        let mut pieces = Vec::with_capacity(if is_first { around.left / PASSED } else { 0 });
+        let mut pieces = Vec::with_capacity(if is_first { around.left / PASSED } else { 16 });
         let right = |dart: u32| self.darts[dart as usize].right;
         let Some(first) = around.next() else { return Contour(pieces) };
         let mut before = (right(first), self.axis.site_shape(right(first)));

@@ -23,8 +23,19 @@ pub(super) struct Chains<'g, 'a> {
     /// The pieces of all chains and their lengths.
     pieces: Vec<u32>,
     lengths: Vec<f64>,
-    /// The chains at each node that is no joint, twice their number, and one more where they end there.
-    leaving: Groups,
+    /// The chains that leave each node that is no joint: where those of the first one start, and so on.
+    first: Vec<u32>,
+    leaving: Vec<Leaving>,
+}
+
+/// A chain as it leaves a node.
+#[derive(Clone, Copy)]
+struct Leaving {
+    /// Where it leads.
+    end: u32,
+    /// Twice its number, and one more if it is passed from its end.
+    way: u32,
+    length: f64,
 }
 
 /// Pieces from one node that is no joint to the next one.
@@ -108,8 +119,16 @@ impl<'g, 'a> Chains<'g, 'a> {
                 [(chain.ends[0], 2 * k), (chain.ends[1], 2 * k + 1)]
             })
         };
-        let leaving = Groups::new(n_hubs as usize, ends);
-        Self { graph, nodes, numbers, n_hubs, chains, pieces, lengths, leaving }
+        let ways = Groups::new(n_hubs as usize, ends);
+        let leaving = |&way: &u32| {
+            let chain: &Chain = &chains[way as usize / 2];
+            let end = chain.ends[usize::from(way.is_multiple_of(2))];
+            Leaving { end, way, length: chain.length }
+        };
+        let leaving = ways.all().iter().map(leaving).collect();
+        let first = (0..n_hubs).map(|hub| ways.range(hub).start as u32);
+        let first = first.chain([ways.all().len() as u32]).collect();
+        Self { graph, nodes, numbers, n_hubs, chains, pieces, lengths, first, leaving }
     }
 
     /// How many nodes there are.
@@ -125,6 +144,12 @@ impl<'g, 'a> Chains<'g, 'a> {
     /// The node with a number here.
     pub fn node(&self, number: u32) -> u32 {
         self.nodes[number as usize]
+    }
+
+    /// The chains that leave a node that is no joint.
+    fn leaving(&self, hub: u32) -> &[Leaving] {
+        let [start, end] = [hub, hub + 1].map(|k| self.first[k as usize] as usize);
+        &self.leaving[start..end]
     }
 
     fn lengths_of(&self, chain: &Chain) -> &[f64] {
@@ -166,21 +191,18 @@ impl<'g, 'a> Chains<'g, 'a> {
             if distance > to[hub as usize] {
                 continue;
             }
-            for &way in self.leaving.of(hub) {
-                let chain = &self.chains[way as usize / 2];
-                let forwards = way.is_multiple_of(2);
-                let there = &mut to[chain.ends[usize::from(forwards)] as usize];
-                if (distance + chain.length) * NEARLY > *there {
+            for &Leaving { end, way, length } in self.leaving(hub) {
+                let there = &mut to[end as usize];
+                if (distance + length) * NEARLY > *there {
                     continue;
                 }
-                let lengths = self.lengths_of(chain);
-                let whole = match forwards {
+                let lengths = self.lengths_of(&self.chains[way as usize / 2]);
+                let whole = match way.is_multiple_of(2) {
                     true => sum(distance, lengths.iter()),
                     false => sum(distance, lengths.iter().rev()),
                 };
                 if whole < *there {
                     *there = whole;
-                    let end = chain.ends[usize::from(forwards)];
                     heap.push(Reverse((whole.to_bits(), end)));
                 }
             }
@@ -231,11 +253,11 @@ impl<'g, 'a> Chains<'g, 'a> {
             Step { to, piece: self.pieces[piece], length: self.lengths[piece] }
         };
         let (around, inside) = if number < self.n_hubs {
-            (self.leaving.of(number), None)
+            (self.leaving(number), None)
         } else {
             (&[][..], Some(self.chain_of(number)))
         };
-        let of_hub = around.iter().map(move |&way| {
+        let of_hub = around.iter().map(move |&Leaving { way, .. }| {
             let chain = &self.chains[way as usize / 2];
             let forwards = way.is_multiple_of(2);
             step(chain, forwards, if forwards { 0 } else { chain.n_pieces as usize - 1 })

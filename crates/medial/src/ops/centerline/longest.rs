@@ -6,7 +6,7 @@
 //! to one tried before that they cannot be either. The longest way of an axis without cycles is found while
 //! its leaves are peeled off, in the order of its keypoints.
 
-use std::cmp::Ordering;
+use std::borrow::Cow;
 
 use super::chains::{Chains, Distances};
 use super::graph::{Graph, NONE, Way};
@@ -16,9 +16,9 @@ use crate::ops::rest::Rest;
 /// More than the rounding of sums of lengths, as a factor.
 const SURE: f64 = 1.0 + 1e-9;
 
-/// Nodes that are visited at most to find the longest way around cycles, from all points together that
-/// are tried as its end: about a second.
-const MOST_VISITED: usize = 1 << 22;
+/// Nodes whose distances are found at most to find the longest way around cycles, from all points together
+/// that are tried as its end: about a tenth of a second.
+const MOST_VISITED: usize = 1 << 20;
 
 /// The way between those two ends of a component that are farthest apart. If it has one end only, from
 /// there to the farthest node; if none, between the farthest two, or all of it, if it is a single cycle.
@@ -45,30 +45,18 @@ pub(super) fn way(graph: &Graph, component: &[u32]) -> Option<Way> {
 /// The same for a component with cycles.
 fn around_cycles(graph: &Graph, component: &[u32], ends: &[u32], lone: Option<u32>) -> Option<Way> {
     let chains = Chains::new(graph, component);
-    // In their order there; of those that are as far the first one of the component counts.
-    let mut ends: Vec<u32> = ends.iter().map(|&node| chains.number(node)).collect();
-    ends.sort_unstable();
-    let first = |&number: &u32| graph.place(chains.node(number));
+    let ends = Ends::new(&chains, ends);
+    // Of those that are as far the first one of the component counts.
+    let place = |number: u32| graph.place(chains.node(number));
     let farthest = |distances: &Distances| {
-        let of = |end: u32| distances.to[end as usize];
-        let better = |best: u32, end: u32| match of(end).total_cmp(&of(best)) {
-            Ordering::Less => best,
-            Ordering::Greater => end,
-            Ordering::Equal => {
-                if first(&end) < first(&best) {
-                    end
-                } else {
-                    best
-                }
-            }
-        };
-        let end = ends.iter().copied().reduce(better).unwrap_or(distances.start);
-        (end, of(end))
+        let there = ends.of(&distances.to);
+        let most = there.iter().fold(0.0, |most, &d| if d > most { d } else { most });
+        let all = (0..there.len()).filter(|&k| there[k] == most).map(|k| ends.number(k));
+        (all.min_by_key(|&end| place(end)).unwrap_or(distances.start), most)
     };
-    let number = |node: u32| chains.number(node);
     let start = match lone {
-        Some(lone) => number(lone),
-        None => farthest(&chains.from(number(component[0]))).0,
+        Some(lone) => chains.number(lone),
+        None => farthest(&chains.from(chains.number(component[0]))).0,
     };
     let mut best = chains.from(start);
     let (mut end, mut length) = farthest(&best);
@@ -78,32 +66,41 @@ fn around_cycles(graph: &Graph, component: &[u32], ends: &[u32], lone: Option<u3
         let back = chains.back(&best, end);
         let mut middle = back.iter().map(|&(_, node)| node);
         let half = middle.find(|&node| best.to[node as usize] * 2.0 <= length);
-        let around = chains.from(half.unwrap_or(end));
-        let distance = |place: usize| around.to[ends[place] as usize];
-        let mut order: Vec<usize> =
-            (0..ends.len()).filter(|&place| 2.0 * distance(place) > length).collect();
-        let node = |place: usize| chains.node(ends[place]);
-        order.sort_by(|&a, &b| {
-            distance(b).total_cmp(&distance(a)).then_with(|| node(a).cmp(&node(b)))
-        });
+        let around = chains.from(half.unwrap_or(end)).to;
+        let around = ends.of(&around);
         // By way of those that were tried no end is farther than this from another one.
-        let mut bounds = vec![f64::INFINITY; ends.len()];
-        for (tried, place) in order.into_iter().enumerate() {
-            if 2.0 * distance(place) <= length {
-                break;
-            }
+        let mut bounds = vec![f64::INFINITY; around.len()];
+        let mut tried = 0;
+        loop {
+            // The farthest from the middle that may be farther from another one.
+            let next =
+                (0..).zip(around.iter().zip(&bounds)).fold(None, |best, (k, (&away, &bound))| {
+                    if 2.0 * away <= length || bound * SURE <= length {
+                        return best;
+                    }
+                    let node = |k: usize| chains.node(ends.number(k));
+                    match best {
+                        Some((other, far))
+                            if far > away || far == away && node(other) < node(k) =>
+                        {
+                            best
+                        }
+                        _ => Some((k, away)),
+                    }
+                });
+            let Some((next, _)) = next else { break };
             if tried * chains.len() > MOST_VISITED {
                 is_best = false;
                 break;
             }
-            if bounds[place] * SURE <= length {
-                continue;
-            }
-            let distances = chains.from(ends[place]);
+            tried += 1;
+            let distances = chains.from(ends.number(next));
             let (other, there) = farthest(&distances);
-            for (bound, &end) in bounds.iter_mut().zip(&ends) {
-                *bound = bound.min(distances.to[end as usize] + there);
+            for (bound, &away) in bounds.iter_mut().zip(&*ends.of(&distances.to)) {
+                let by_there = away + there;
+                *bound = if by_there < *bound { by_there } else { *bound };
             }
+            bounds[next] = 0.0;
             if there > length {
                 (best, end, length) = (distances, other, there);
             }
@@ -113,6 +110,37 @@ fn around_cycles(graph: &Graph, component: &[u32], ends: &[u32], lone: Option<u3
         let way = chains.way(&best, end);
         Way { is_best: is_best && way.is_best, ..way }
     })
+}
+
+/// The nodes between which a way is looked for, by their numbers among the chains.
+enum Ends {
+    /// All of them.
+    All,
+    Some(Vec<u32>),
+}
+
+impl Ends {
+    fn new(chains: &Chains, ends: &[u32]) -> Self {
+        match ends.len() == chains.len() {
+            true => Self::All,
+            false => Self::Some(ends.iter().map(|&node| chains.number(node)).collect()),
+        }
+    }
+
+    fn number(&self, k: usize) -> u32 {
+        match self {
+            Self::All => k as u32,
+            Self::Some(ends) => ends[k],
+        }
+    }
+
+    /// The values of these among those of all nodes.
+    fn of<'v>(&self, all: &'v [f64]) -> Cow<'v, [f64]> {
+        match self {
+            Self::All => Cow::Borrowed(all),
+            Self::Some(ends) => ends.iter().map(|&end| all[end as usize]).collect(),
+        }
+    }
 }
 
 /// What has been peeled off around a keypoint.
