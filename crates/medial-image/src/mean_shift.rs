@@ -1,4 +1,4 @@
-//! Mean shift in the joint domain of places and colours [CM02].
+//! Mean shift in the joint domain of places and colours \[CM02\].
 //!
 //! # Contract
 //! Each pixel with data is in one region; regions are connected, and have at least so many pixels unless they
@@ -35,7 +35,7 @@ pub struct Filter {
 }
 
 impl Default for Filter {
-    /// The radii and the least region of [CM02].
+    /// The radii and the least region of \[CM02\].
     fn default() -> Self {
         Self { spatial: 7.0, range: 6.5, min_region: 20, threads: NonZeroUsize::MIN }
     }

@@ -58,7 +58,7 @@ use std::collections::BTreeSet;
 /// silhouettes has all their edges and, of others, little more than one in a thousand.
 const MASK_SPACING: f64 = 0.5;
 
-/// How dense samples have to be for the crust to be the boundary, as a share of the distance from the axis [ABE98].
+/// How dense samples have to be for the crust to be the boundary, as a share of the distance from the axis \[ABE98\].
 const DENSE: f64 = 0.252;
 
 /// A node of the dual graph.
@@ -103,7 +103,7 @@ pub struct Sampling {
     pub n_false_crust: usize,
     /// Pairs of neighbours farther apart than twice 0.252 of the distance between their middle and the nearer
     /// Voronoi vertex beside them, which bounds the local feature size from above: where samples are not dense enough
-    /// for the theorem of [ABE98].
+    /// for the theorem of \[ABE98\].
     pub n_sparse: usize,
     /// The first of these.
     pub first_sparse: Option<Point>,
@@ -255,7 +255,7 @@ impl<'a> DelaunayDual<'a> {
         Self::of(source, None, samples, plane, graph, spacing, &watch)
     }
 
-    /// The same with the border drawn back to where hairs begin [TG00]: what lies behind branches with a chord residual
+    /// The same with the border drawn back to where hairs begin \[TG00\]: what lies behind branches with a chord residual
     /// of no more than this, in units of the input, becomes arcs of the circles where these begin, or nearly.
     ///
     /// The elements that govern the axis are those of the border as it was.

@@ -5,7 +5,7 @@ use super::samples::Samples;
 use crate::geom::Delaunay;
 
 /// How much longer the boundary between both samples across an edge of the dual graph is than their distance
-/// [OK95], the shorter way around; infinite between two rings, towards infinity, and next to a vertex where the boundary
+/// \[OK95\], the shorter way around; infinite between two rings, towards infinity, and next to a vertex where the boundary
 /// touches itself.
 pub(super) fn residuals(triangles: &Delaunay, samples: &Samples, dual: &Dual) -> Vec<f64> {
     let along = samples.along();

@@ -48,7 +48,7 @@ pub(super) fn average(samples: &mut Samples, width: f64, cell: f64) -> f64 {
     largest
 }
 
-/// Moves samples behind branches that were removed to arcs between the samples where these begin [TG00]; gives the
+/// Moves samples behind branches that were removed to arcs between the samples where these begin \[TG00\]; gives the
 /// largest move.
 pub(super) fn retract(
     samples: &mut Samples,

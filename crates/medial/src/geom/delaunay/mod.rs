@@ -305,7 +305,7 @@ impl Delaunay {
         }
     }
 
-    /// Whether an edge belongs to the one-step crust [GS01]: some circle through its ends holds neither a vertex nor
+    /// Whether an edge belongs to the one-step crust \[GS01\]: some circle through its ends holds neither a vertex nor
     /// a Voronoi vertex at one of its sides, exactly. Otherwise the Voronoi edge across it is in the anti-crust.
     ///
     /// That is so if both triangles see it under no more than a right angle together: their centres then lie on
