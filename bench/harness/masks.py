@@ -28,7 +28,7 @@ TITLE = "Compression"
 
 HEAD = """## Compression
 
-What masks take as `medial compress` writes them ([formats.md](formats.md#the-compressed-axis)), whole files, and in other ways: [VSC87, II.A.3](../REFERENCES.md) hopes for the medial axis to save memory, and names squares in the place of disks.
+What masks take as `medial compress` writes them ([formats.md](formats.md#the-compressed-axis)), whole files, and in other ways: [VS87, II.A.3](../REFERENCES.md) hopes for the medial axis to save memory, and names squares in the place of disks.
 Every file is read again before it is counted.
 
 - *raw*: one bit a pixel; *PNG*: the smallest of three filters, one bit a pixel, deflated as hard as it goes; *CCITT G4*: as fax machines code it, without the head of a file; *crack code, 2 bits*: two bits for each crack between a pixel of the shape and one outside, and a start for each outline.

@@ -1,4 +1,4 @@
-"""The experiments of [VSC87, IV] again: tables of times, and plots like Figs. 19 to 32."""
+"""The experiments of [VS87, IV] again: tables of times, and plots like Figs. 19 to 32."""
 
 from .run import run, short
 
@@ -7,7 +7,7 @@ LIMIT = 900
 
 HEAD = """# Ridge following, 1987 and now
 
-The experiments of section IV of [VSC87](../REFERENCES.md), done again by `scripts/ridge-following --write docs/ridge-following.md`: how long each phase of `ridge_following` takes, with the search of the report (*sorted*) and with a tree (*tree*), which gives the same answers.
+The experiments of section IV of [VS87](../REFERENCES.md), done again by `scripts/ridge-following --write docs/ridge-following.md`: how long each phase of `ridge_following` takes, with the search of the report (*sorted*) and with a tree (*tree*), which gives the same answers.
 Cells have size 0.1; the report does not tell its own. The rules for pairs of edges and for thinning are those of the report.
 Times are microseconds on the clock, the least of five runs; *rest* is the search for all medial pixels after the first, with the scan for those that no ridge leads to.
 Processor: {processor}.

@@ -1,4 +1,4 @@
-//! Fig. 14 of [VSC87] for any bitmap: the medial cells of each engine, what their disks give back, and the medial
+//! Fig. 14 of [VS87] for any bitmap: the medial cells of each engine, what their disks give back, and the medial
 //! cells of that.
 
 use medial::axis::MedialAxis;

@@ -195,7 +195,7 @@ fn inverses(files: &[&str]) -> Result<(), Error> {
     Ok(())
 }
 
-/// Runs the experiments of [VSC87, IV] with both searches.
+/// Runs the experiments of [VS87, IV] with both searches.
 fn ridges() -> Result<(), Error> {
     for (experiment, first, last) in ridge::EXPERIMENTS {
         for value in first..=last {

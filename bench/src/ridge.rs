@@ -1,4 +1,4 @@
-//! The experiments of [VSC87, IV] again: regular polygons, triangles, holes, flipped vertices.
+//! The experiments of [VS87, IV] again: regular polygons, triangles, holes, flipped vertices.
 
 use std::f64::consts::TAU;
 use std::time::Duration;

@@ -28,8 +28,10 @@ fn mask(data: &[u8]) -> Option<Mask> {
 fuzz_target!(|data: &[u8]| {
     let Some(mask) = mask(data) else { return };
     let whole = topology(&mask);
+    // Whole, or in bands of one row to seven.
+    let band_rows = Some(u32::from(data[1] >> 3 & 7)).filter(|&rows| rows > 0);
     for residual in [Some(2.0), None] {
-        let options = Options { residual, ..Options::default() };
+        let options = Options { residual, band_rows, ..Options::default() };
         let skeleton = Skeleton::new(&mask, &options).expect("nobody cancels");
         assert_eq!(topology(skeleton.cells()), whole);
         let graph = skeleton.graph();

@@ -9,7 +9,7 @@ use medial::raster::{Grid, Mask, mask_of_disks};
 use medial_io::{Format, ReadOptions, image};
 
 pub const LESSON: Lesson = Lesson {
-    title: "Inversion of medial cells [VSC87, Fig. 14]",
+    title: "Inversion of medial cells [VS87, Fig. 14]",
     text: "A silhouette of few pixels, and what the disks of its medial cells give back. \
            A brushfire takes some of the cells for medial; the disks around them leave pixels out, and the same \
            brushfire in what came back takes others. The cells of `raster_transform --prune none` give back every \
