@@ -161,6 +161,20 @@ fn threads_change_nothing() {
 }
 
 #[test]
+fn rows_may_be_as_long_as_there_can_be() {
+    // Wide cells, so that what is nearest lies above and below; then high ones, and it lies at both ends.
+    for (height, middle) in [(1.0, 32_767), (1e6, 32_767)] {
+        let grid = Grid { cell: [1.0, height], ..Grid::of_image(Mask::MOST, 1) };
+        let mask = Mask::new(grid, |_, _| true).unwrap();
+        let skeleton = Skeleton::new(&mask, &Options::default()).unwrap();
+        assert!(skeleton.cells().get(middle, 0), "{height}");
+        let distance = if height == 1.0 { 0.5 } else { 32_766.5 };
+        assert_eq!(skeleton.radius(middle, 0), Some(distance));
+        assert_eq!(topology(skeleton.cells()), topology(&mask));
+    }
+}
+
+#[test]
 fn bands_of_rows_change_neither_topology_nor_distances_nor_what_disks_cover() {
     for seed in 0..600 {
         let mask = random(seed);

@@ -353,7 +353,7 @@ impl Envelope {
                 let Some(top) = stack.last() else { break 1 };
                 // Where the new one becomes lower than the top one.
                 let span = f64::from(at - top.column);
-                let rise = f64::from(at * at - top.column * top.column) + (height - top.height);
+                let rise = span * f64::from(at + top.column) + (height - top.height);
                 // Rounded down, but for what lies before the first column anyway.
                 let meet = ((rise / (2.0 * span)) as i32).saturating_add(1);
                 if meet > top.first {

@@ -124,12 +124,12 @@ impl Pairs<'_> {
         // Both feet, from the first cell.
         let b = (b.0 + sx, b.1 + sy);
         let (dx, dy) = (a.0 - b.0, a.1 - b.1);
-        if dx * dx + dy * dy <= 1 {
+        if dx.abs() + dy.abs() <= 1 {
             return [false; 2];
         }
         // Which of the two cells is nearer to the bisector of the feet.
-        let along_x = f64::from(dx * (a.0 + b.0 - sx));
-        let along_y = f64::from(dy * (a.1 + b.1 - sy));
+        let along_x = f64::from(dx) * f64::from(a.0 + b.0 - sx);
+        let along_y = f64::from(dy) * f64::from(a.1 + b.1 - sy);
         let side = along_x + self.aspect * along_y;
         [first && side >= 0.0, second && side <= 0.0]
     }
