@@ -1,7 +1,7 @@
 use crate::failure::{Failure, plain};
 use crate::guard::guarded;
 use medial_io::axis_document::{self, AxisDocument};
-use medial_io::{Content, Error, Format, Layer, ReadOptions, maxis, svg};
+use medial_io::{Content, Crs, Error, Format, Layer, ReadOptions, maxis, svg};
 use std::cell::RefCell;
 use std::fs::{self, File};
 use std::io::{self, BufRead, BufReader, Cursor, Read as _};
@@ -79,14 +79,15 @@ impl Input {
         axis_document::of_bytes(&self.bytes).map_err(|error| self.wrong(error))
     }
 
-    /// What a compressed file stores; `None` for other content.
-    pub fn compressed(&self) -> Result<Option<Vec<maxis::Record>>, Failure> {
+    /// What a compressed file stores, with the reference system that it names; `None` for other content.
+    pub fn compressed(&self) -> Result<Option<(Option<Crs>, Vec<maxis::Record>)>, Failure> {
         if !matches!(Format::of_content(&self.bytes), Ok(Content::CompressedAxes)) {
             return Ok(None);
         }
         let records = maxis::records(&self.bytes).map_err(|error| self.wrong(error))?;
+        let crs = records.crs.clone().map(Crs::of_member);
         let records = records.collect::<Result<_, _>>().map_err(|error| self.wrong(error))?;
-        Ok(Some(records))
+        Ok(Some((crs, records)))
     }
 
     /// The failure that the content is wrong.

@@ -446,7 +446,7 @@ pub struct Common {
     pub font: Vec<PathBuf>,
     /// Cells of an image (png, tiff) whose value is above T belong to the shape; by default the middle
     /// between its least and its greatest value
-    #[arg(long, value_name = "T", allow_negative_numbers = true)]
+    #[arg(long, value_name = "T", value_parser = finite, allow_negative_numbers = true)]
     pub threshold: Option<f64>,
     /// Take the cells of an image that are not above the threshold for the shape
     #[arg(long)]
@@ -645,6 +645,13 @@ fn not_negative(word: &str) -> Result<f64, String> {
     }
 }
 
+fn finite(word: &str) -> Result<f64, String> {
+    match word.parse::<f64>() {
+        Ok(value) if value.is_finite() => Ok(value),
+        _ => Err("a finite number is needed".to_owned()),
+    }
+}
+
 fn count(word: &str) -> Result<NonZeroUsize, String> {
     word.parse().map_err(|_| "a whole number from 1 on is needed".to_owned())
 }
@@ -704,6 +711,7 @@ mod tests {
     #[test]
     fn engines_take_hyphens() {
         assert_eq!(engine("path-tracing"), Ok(Engine::PathTracing));
-        assert!(engine("delaunay_dual").unwrap_err().contains("use path_tracing"));
+        assert_eq!(engine("delaunay-dual"), Ok(Engine::DelaunayDual));
+        assert!(engine("straight_skeleton").unwrap_err().contains("path_tracing"));
     }
 }

@@ -398,6 +398,11 @@ fn valid(feature: &Feature, common: &Common, stages: &mut Stages) -> Result<Doma
     let mask = feature.mask.as_ref().filter(|mask| mask.count() > 0);
     let mask_box = mask.filter(|_| feature.polygons.is_empty()).map(|mask| box_of(mask.grid()));
     let polygons = mask_box.as_deref().unwrap_or(&feature.polygons);
+    if polygons.is_empty() && feature.mask.is_some() {
+        let why =
+            "is a mask without points; choose others by --threshold or --invert, or leave it out";
+        return Err(Entry::refused("empty", why.to_owned()));
+    }
     if polygons.is_empty() {
         let why = format!("is {} without points; leave it out", feature.geometry);
         return Err(Entry::refused("empty", why));

@@ -20,7 +20,7 @@ use medial::ops::{
 use medial::raster::outline;
 use medial_io::axis_document::AxisDocument;
 use medial_io::record::{self, Record, Shape, Value};
-use medial_io::{Error, Feature, Format, Json, default_tolerance, image, maxis};
+use medial_io::{Crs, Error, Feature, Format, Json, default_tolerance, image, maxis};
 use std::io::IsTerminal as _;
 use std::ops::ControlFlow;
 
@@ -46,7 +46,8 @@ pub fn run(args: &'static ReconstructArgs) -> Result<Status, Failure> {
     };
     let input = match run.opened(&args.input)? {
         Opened::Axes(input) => {
-            let masks = input.compressed()?.map(masks_of).unwrap_or_default();
+            let (crs, records) = input.compressed()?.unwrap_or_default();
+            let masks = masks_of(records);
             let is_png = plan.asked()? == Format::Png;
             return match &masks[..] {
                 [] if is_png => {
@@ -56,7 +57,7 @@ pub fn run(args: &'static ReconstructArgs) -> Result<Status, Failure> {
                 }
                 [] => of_documents(args, &plan, kept(input)),
                 [(_, _, mask)] if is_png => as_image(args, &input, mask),
-                masks => of_masks(args, &plan, &input, masks),
+                masks => of_masks(args, &plan, &input, crs, masks),
             };
         }
         Opened::Polygons(polygons) => kept(polygons),
@@ -108,10 +109,11 @@ fn of_masks(
     args: &ReconstructArgs,
     plan: &Plan,
     input: &Input,
+    crs: Option<Crs>,
     masks: &[Numbered],
 ) -> Result<Status, Failure> {
     let format = plan.format()?;
-    let mut sink = plan.sink(format, None, None, args.common.quiet)?;
+    let mut sink = plan.sink(format, crs, None, args.common.quiet)?;
     for (feature, id, code) in masks {
         let mask = code.mask().map_err(|error| input.wrong(error))?;
         let [width, height] = mask.grid().cell;

@@ -92,10 +92,10 @@ impl Values {
         }
     }
 
-    /// The least and the greatest value that is a number; `None` if there is none.
+    /// The least and the greatest finite value; `None` if there is none.
     fn range(&self) -> Option<(f64, f64)> {
         fn of<T: Copy + PartialOrd + Into<f64>>(values: &[T]) -> Option<(f64, f64)> {
-            let numbers = values.iter().map(|&value| value.into()).filter(|v: &f64| !v.is_nan());
+            let numbers = values.iter().map(|&value| value.into()).filter(|v: &f64| v.is_finite());
             numbers.fold(None, |range, v| {
                 let (low, high) = range.unwrap_or((v, v));
                 Some((v.min(low), v.max(high)))

@@ -238,3 +238,38 @@ fn masks_may_come_without_their_outlines() {
     assert!(feature.polygons.is_empty() && feature.polygonal);
     assert_eq!(feature.mask.map(|mask| mask.count()), Some(16 * 15));
 }
+
+#[test]
+fn planes_one_after_the_other_are_refused_unless_they_are_bands() {
+    // 2 by 1 pixels of three samples, one strip for each plane; 284 says that.
+    let planar = |photometric: u16| {
+        let entries: [(u16, u16, u32, u32); 10] = [
+            (256, 3, 1, 2),
+            (257, 3, 1, 1),
+            (258, 3, 3, 146),
+            (259, 3, 1, 1),
+            (262, 3, 1, photometric.into()),
+            (273, 4, 3, 152),
+            (277, 3, 1, 3),
+            (278, 3, 1, 1),
+            (279, 4, 3, 164),
+            (284, 3, 1, 2),
+        ];
+        let mut bytes = b"II\x2a\0\x08\0\0\0".to_vec();
+        bytes.extend(10_u16.to_le_bytes());
+        for (tag, kind, count, value) in entries {
+            bytes.extend([tag.to_le_bytes(), kind.to_le_bytes()].concat());
+            bytes.extend([count.to_le_bytes(), value.to_le_bytes()].concat());
+        }
+        bytes.resize(146, 0);
+        (0..3).for_each(|_| bytes.extend(8_u16.to_le_bytes()));
+        (0..3).for_each(|k: u32| bytes.extend((176 + 2 * k).to_le_bytes()));
+        (0..3).for_each(|_| bytes.extend(2_u32.to_le_bytes()));
+        bytes.extend([0, 9, 1, 1, 2, 2]);
+        bytes
+    };
+    // Bands: the first.
+    assert_eq!(drawn(Format::Tiff, &planar(1), &ReadOptions::default()), [".#"]);
+    let error = read_mask(Format::Tiff, &planar(2), &ReadOptions::default()).unwrap_err();
+    assert!(error.to_string().contains("INTERLEAVE=PIXEL"), "{error}");
+}

@@ -76,7 +76,7 @@ pub(super) fn open(bytes: &[u8]) -> Result<Box<dyn Image + '_>, Error> {
         ColorType::RGB(_) => (3, 3, false),
         ColorType::RGBA(_) => (4, 3, true),
         ColorType::Multiband { num_samples, .. } => (usize::from(num_samples).max(1), 1, false),
-        ColorType::CMYK(_) => (4, 4, false),
+        ColorType::CMYK(8) => (4, 4, false),
         other => {
             let why = format!("images of type {other:?} are not read; save it in grey or RGB");
             return Err(Error::File { why });
@@ -111,6 +111,15 @@ impl Image for Tiff<'_> {
         const PLANES: u16 = 2;
         let planes: Option<u16> =
             self.decoder.find_tag_unsigned(Tag::PlanarConfiguration).map_err(wrong)?;
+        if planes == Some(PLANES) && self.kind.each > 1 {
+            // The library reads the first plane, which is all of a band that is no colour.
+            if self.kind.n_colours > 1 || !matches!(wanted, Wanted::Value | Wanted::Bands([0])) {
+                let why = "its bands lie one after the other; save it with the samples of each pixel \
+                           together, as gdal_translate -co INTERLEAVE=PIXEL does";
+                return Err(Error::File { why: why.to_owned() });
+            }
+            (self.kind.each, self.kind.has_alpha) = (1, false);
+        }
         if planes == Some(PLANES) || columns == 0 || rows == 0 {
             let samples = self.decoder.read_image().map_err(wrong)?;
             take(0, self.kind.values(samples, columns, rows, wanted));
@@ -171,10 +180,13 @@ impl Kind {
             DecodingResult::U8(samples) => match &self.palette {
                 Some(palette) => {
                     let light = |rgb: &[f32; 3]| brightness(rgb.map(|v| f64::from(v) * 65_535.0));
+                    // No data is a number of a colour.
+                    let has_data = |k: u8| self.no_data != Some(f64::from(k));
                     let colour = |&k: &u8| {
-                        palette.get(usize::from(k)).map_or(f32::NAN, |rgb| light(rgb) as f32)
+                        let rgb = palette.get(usize::from(k)).filter(|_| has_data(k));
+                        rgb.map_or(f32::NAN, |rgb| light(rgb) as f32)
                     };
-                    Values::Numbers(samples.iter().map(colour).collect())
+                    return Values::Numbers(samples.iter().map(colour).collect());
                 }
                 None if n_colours == 4 => Values::Numbers(
                     samples
@@ -188,25 +200,31 @@ impl Kind {
             DecodingResult::U16(samples) if each == 1 => Values::Words(samples),
             DecodingResult::U16(samples) => flattened(&samples, each, n_colours, alpha(65_535.0)),
             DecodingResult::U32(samples) => {
-                doubles(samples.chunks_exact(each), n_colours, f64::from)
+                let opaque = alpha(f64::from(u32::MAX));
+                doubles(samples.chunks_exact(each), n_colours, opaque, f64::from)
             }
             DecodingResult::I8(samples) => flattened(&samples, each, n_colours, alpha(127.0)),
             DecodingResult::I16(samples) => flattened(&samples, each, n_colours, alpha(32_767.0)),
             DecodingResult::I32(samples) => {
-                doubles(samples.chunks_exact(each), n_colours, f64::from)
+                let opaque = alpha(f64::from(i32::MAX));
+                doubles(samples.chunks_exact(each), n_colours, opaque, f64::from)
             }
             DecodingResult::U64(samples) => {
-                doubles(samples.chunks_exact(each), n_colours, |v| v as f64)
+                let opaque = alpha(u64::MAX as f64);
+                doubles(samples.chunks_exact(each), n_colours, opaque, |v| v as f64)
             }
             DecodingResult::I64(samples) => {
-                doubles(samples.chunks_exact(each), n_colours, |v| v as f64)
+                let opaque = alpha(i64::MAX as f64);
+                doubles(samples.chunks_exact(each), n_colours, opaque, |v| v as f64)
             }
             DecodingResult::F16(samples) => {
                 let samples: Vec<f32> = samples.into_iter().map(f32::from).collect();
                 flattened(&samples, each, n_colours, alpha(1.0))
             }
             DecodingResult::F32(samples) => flattened(&samples, each, n_colours, alpha(1.0)),
-            DecodingResult::F64(samples) => doubles(samples.chunks_exact(each), n_colours, |v| v),
+            DecodingResult::F64(samples) => {
+                doubles(samples.chunks_exact(each), n_colours, alpha(1.0), |v| v)
+            }
         };
         without(values, self.no_data)
     }
@@ -294,9 +312,15 @@ impl Values {
 fn doubles<'a, T: Copy + 'a>(
     pixels: impl Iterator<Item = &'a [T]>,
     colours: usize,
+    opaque: Option<f64>,
     number: impl Fn(T) -> f64,
 ) -> Values {
+    let hidden = |pixel: &[T]| {
+        let last = pixel.last().map(|&last| number(last));
+        opaque.zip(last).is_some_and(|(opaque, last)| last < 0.5 * opaque)
+    };
     let value = |pixel: &[T]| match colours {
+        _ if hidden(pixel) => f64::NAN,
         3 => brightness([number(pixel[0]), number(pixel[1]), number(pixel[2])]),
         _ => number(pixel[0]),
     };

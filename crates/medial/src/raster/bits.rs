@@ -80,7 +80,17 @@ impl Bits {
 
     /// Clears all cells of a row from one column up to, but not with, another one.
     pub fn clear_run(&mut self, y: u32, from: u32, to: u32) {
-        (from..to).for_each(|x| self.clear(x as i32, y as i32));
+        let (mut x, to) = (from as i32, to as i32);
+        while x < to && x & 7 != 0 {
+            self.clear(x, y as i32);
+            x += 1;
+        }
+        let whole = ((to - x) / 8).max(0);
+        let first = self.byte(x, y as i32);
+        self.data[first..first + whole as usize].fill(0);
+        for x in x + 8 * whole..to {
+            self.clear(x, y as i32);
+        }
     }
 
     /// A cell and its eight neighbours, three bits a row from the one above, each from the left.

@@ -21,6 +21,9 @@ pub struct PixelGraph {
     pub steps: Vec<[u32; 2]>,
 }
 
+/// Columns, and rows, from the first to the last cell of junctions that are one.
+const REACH: u32 = 2;
+
 impl PixelGraph {
     /// The graph of the cells of a mask.
     ///
@@ -133,41 +136,72 @@ impl PixelGraph {
         self.keep(&dropped, |node| node);
     }
 
-    /// Joins junctions that are beside one another, each set at its node of the largest radius. Sets around a
-    /// hole stay as they are.
+    /// Joins junctions that are beside one another within three by three cells, each set at its node of the largest
+    /// radius, of several that which is nearest to the middle. Sets around a hole stay as they are, and so do those that would have two steps between them.
     pub(crate) fn join_junctions(&mut self, radius: impl Fn(u32) -> f64) {
         let n = self.cells.len();
         let (starts, _) = self.incidence();
         let is_junction = |node: u32| starts[node as usize + 1] - starts[node as usize] > 2;
-        // Sets of junctions, and whether one is around something.
+        // Sets of junctions with their boxes, and whether one is around something.
         let mut parent: Vec<u32> = (0..n as u32).collect();
-        let mut winds = vec![false; n];
+        let mut boxes: Vec<[[u32; 2]; 2]> = self.cells.iter().map(|&cell| [cell; 2]).collect();
+        let mut stays = vec![false; n];
         for &[a, b] in &self.steps {
             if !is_junction(a) || !is_junction(b) {
                 continue;
             }
             let (a, b) = (find(&mut parent, a), find(&mut parent, b));
-            let winding = winds[a as usize] || winds[b as usize] || a == b;
+            if a == b {
+                stays[a as usize] = true;
+                continue;
+            }
+            let [[low, high], [other_low, other_high]] = [boxes[a as usize], boxes[b as usize]];
+            let low = [0, 1].map(|axis| low[axis].min(other_low[axis]));
+            let high = [0, 1].map(|axis| high[axis].max(other_high[axis]));
+            if (0..2).any(|axis| high[axis] - low[axis] > REACH) {
+                continue;
+            }
+            let is_around = stays[a as usize] || stays[b as usize];
             join(&mut parent, a, b);
-            winds[a.min(b) as usize] = winding;
+            stays[a.min(b) as usize] = is_around;
+            boxes[a.min(b) as usize] = [low, high];
         }
+        let set: Vec<u32> = (0..n as u32).map(|node| find(&mut parent, node)).collect();
+        // Twice how far a node is from the middle of its set.
+        let off = |node: u32| {
+            let [low, high] = boxes[set[node as usize] as usize];
+            let cell = self.cells[node as usize];
+            (0..2).map(|axis| (2 * cell[axis]).abs_diff(low[axis] + high[axis])).sum::<u32>()
+        };
         let mut best: Vec<u32> = (0..n as u32).collect();
         for node in 0..n as u32 {
-            let set = find(&mut parent, node);
-            if radius(node) > radius(best[set as usize]) {
-                best[set as usize] = node;
+            let set = set[node as usize] as usize;
+            let order = radius(node).total_cmp(&radius(best[set]));
+            if order.then_with(|| off(best[set]).cmp(&off(node))).is_gt() {
+                best[set] = node;
             }
         }
-        let mut target: Vec<u32> = (0..n as u32).collect();
-        let mut dropped = vec![false; n];
-        for node in 0..n as u32 {
-            let set = find(&mut parent, node);
-            if !winds[set as usize] {
-                target[node as usize] = best[set as usize];
-                dropped[node as usize] = best[set as usize] != node;
+        loop {
+            let target = |node: u32| {
+                let set = set[node as usize] as usize;
+                if stays[set] { node } else { best[set] }
+            };
+            let mut steps: Vec<[u32; 2]> = self.steps.iter().map(|ends| ends.map(target)).collect();
+            steps.retain_mut(|ends| {
+                ends.sort_unstable();
+                ends[0] != ends[1]
+            });
+            steps.sort_unstable();
+            let twice: Vec<[u32; 2]> =
+                steps.windows(2).filter(|pair| pair[0] == pair[1]).map(|pair| pair[0]).collect();
+            if twice.is_empty() {
+                let target: Vec<u32> = (0..n as u32).map(target).collect();
+                let dropped: Vec<bool> =
+                    (0..).zip(&target).map(|(node, &target)| target != node).collect();
+                return self.keep(&dropped, |node| target[node as usize]);
             }
+            twice.into_iter().flatten().for_each(|node| stays[set[node as usize] as usize] = true);
         }
-        self.keep(&dropped, |node| target[node as usize]);
     }
 
     fn distance(&self, a: u32, b: u32, aspect: f64) -> f64 {
@@ -225,6 +259,11 @@ mod tests {
             let mut graph = PixelGraph::of(&bits);
             assert_eq!(topology_of(&graph), of_bits(&bits), "{seed}");
             graph.join_junctions(|node| f64::from(node % 7));
+            // From one side of three by three cells to beyond the other, between two such sets.
+            for &[a, b] in &graph.steps {
+                let ([x, y], [u, v]) = (graph.cells[a as usize], graph.cells[b as usize]);
+                assert!(x.abs_diff(u).max(y.abs_diff(v)) <= 2 * REACH + 1, "{seed}");
+            }
             assert_eq!(topology_of(&graph), of_bits(&bits), "{seed}: joined");
             graph.drop_stubs(1.0, |node| f64::from(node % 3));
             assert_eq!(topology_of(&graph), of_bits(&bits), "{seed}: without stubs");

@@ -5,7 +5,8 @@
 //! sides and corners. No block of two by two cells is left from which one could be taken without changing
 //! that. Where no residual is given, the disks of all cells together are the mask again, cell for cell;
 //! otherwise cells whose chord residual is above it stay, but for what is needed to make the axis thin.
-//! Results do not depend on the number of threads. Time is linear in the cells of the shape, nearly.
+//! Results do not depend on the number of threads. Time is linear in the cells of the shape, nearly, but for
+//! what it takes to draw the disks where no residual is given.
 //!
 //! # Method
 //! 1. [Features](crate::raster) [MRH00]: for each cell the nearest one outside.
@@ -85,7 +86,7 @@ impl<'m> Skeleton<'m> {
             thin_further(thinning, &search.found())
         } else {
             let cells = thinning.finish();
-            let lost = uncovered(mask, &features, &cells);
+            let lost = uncovered(mask, &features, &cells, &watch)?;
             if lost.count() > 0 {
                 for y in 0..bits.rows() {
                     lost.ones(y).for_each(|x| kept.set(x as i32, y as i32));
@@ -172,15 +173,21 @@ impl<'m> Skeleton<'m> {
 }
 
 /// Cells of the shape that no disk of some cells covers.
-fn uncovered(mask: &Mask, features: &Features<'_>, cells: &Bits) -> Bits {
+fn uncovered(
+    mask: &Mask,
+    features: &Features<'_>,
+    cells: &Bits,
+    watch: &Watch<'_>,
+) -> Result<Bits, EngineError> {
     let mut left = mask.bits.clone();
     for y in 0..cells.rows() {
         for x in cells.ones(y) {
+            watch.check()?;
             let squared = features.squared(x as i32, y as i32);
             disk_cells(mask.grid(), x, y, squared, |row, from, to| left.clear_run(row, from, to));
         }
     }
-    left
+    Ok(left)
 }
 
 /// The sampled medial axis of a mask; see [`Skeleton`].
