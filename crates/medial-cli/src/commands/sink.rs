@@ -167,16 +167,17 @@ impl Sink {
     }
 }
 
-/// What to say of a reference system for which a format has no place. Longitudes and latitudes need none.
+/// What to say of a reference system that a format cannot keep although its readers expect one: features of GeoJSON
+/// without it are in longitudes and latitudes, which need none. Of bare coordinates and pictures nobody expects it.
 pub fn lost(format: Format, crs: Option<&Crs>) -> Option<String> {
     const WGS_84: u32 = 4326;
     let crs = crs.filter(|crs| !crs.is_assumed() && crs.epsg_code() != Some(WGS_84))?;
     let why = match format {
         Format::GeoJson | Format::Maxis if crs.member().is_some() => return None,
         Format::GeoJson | Format::Maxis => "names systems by a code, and it has none that is known",
-        // Where they cannot keep it they say so themselves.
-        format if format.is_table() => return None,
-        _ => "has no place for it",
+        Format::GeoJsonLines | Format::GeoJsonSeq => "has no place for it",
+        // Where tables cannot keep it they say so themselves.
+        _ => return None,
     };
     Some(format!("the reference system {crs} is not written: {format} {why}"))
 }

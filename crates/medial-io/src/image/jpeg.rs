@@ -12,7 +12,8 @@ struct Jpeg<'b> {
 }
 
 fn wrong(error: impl std::fmt::Debug) -> Error {
-    let why = format!("the image cannot be read: {error:?}; save it again as JPEG or PNG");
+    let error = format!("{error:?}").replace('\n', " ");
+    let why = format!("the image cannot be read: {}; save it again as JPEG or PNG", error.trim());
     Error::File { why }
 }
 

@@ -147,7 +147,8 @@ impl<'a> DelaunayDual<'a> {
     /// let count = |kind| nodes.iter().filter(|node| node.kind == kind).count();
     /// // An end in each corner, and two circles of radius 1 that touch three sides.
     /// assert_eq!((count(DualKind::Dangling), count(DualKind::RamificationI)), (4, 2));
-    /// assert_eq!(dual.axis(DualPruning::Nothing)?.keypoints().len(), nodes.len());
+    /// // The axis goes on into the four corners.
+    /// assert_eq!(dual.axis(DualPruning::Nothing)?.keypoints().len(), nodes.len() + 4);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     ///
