@@ -18,7 +18,7 @@ pixels, area, mean values and colour; png, the regions in their mean colours.
 Examples:
   medial segment fixtures/images/horse.png --method threshold --limits 50 -o horse.geojson
   medial segment fixtures/images/horse.png --method feature-space --min-region 20 --to csv
-  medial segment fixtures/images/horse.png --method mean-shift --spatial 4 -o smooth.png --labels labels.tiff
+  medial segment fixtures/images/horse.png --method mean-shift -o smooth.png --labels n.tiff
 
 Exit status: 0 all done; 1 no usable result; 2 wrong usage.";
 
