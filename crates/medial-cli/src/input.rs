@@ -41,6 +41,9 @@ pub enum Documents {
     AsPolygons,
 }
 
+/// The reference system and the records of a compressed file.
+type Stored = (Option<Crs>, Vec<maxis::Record>);
+
 /// The features of an input.
 enum Features {
     Whole(Vec<u8>),
@@ -80,7 +83,7 @@ impl Input {
     }
 
     /// What a compressed file stores, with the reference system that it names; `None` for other content.
-    pub fn compressed(&self) -> Result<Option<(Option<Crs>, Vec<maxis::Record>)>, Failure> {
+    pub fn compressed(&self) -> Result<Option<Stored>, Failure> {
         if !matches!(Format::of_content(&self.bytes), Ok(Content::CompressedAxes)) {
             return Ok(None);
         }
