@@ -62,6 +62,21 @@ struct Header {
     is_colour: bool,
 }
 
+impl Header {
+    /// A mask with no cell in it where the image lies, and the reference system of that place.
+    fn placed(&self) -> Result<(Mask, Option<Crs>), Error> {
+        let Self { columns, rows, .. } = *self;
+        let (grid, crs) = match &self.place {
+            Some(Place { origin, cell, crs }) => {
+                (Grid { origin: *origin, cell: *cell, columns, rows }, crs.clone())
+            }
+            None => (Grid::of_image(columns, rows), None),
+        };
+        let mask = Mask::empty(grid).map_err(|error| Error::File { why: error.to_string() })?;
+        Ok((mask, crs))
+    }
+}
+
 /// Values of pixels.
 enum Values {
     Bytes(Vec<u8>),
@@ -166,12 +181,9 @@ pub fn read_mask(
 ) -> Result<(Mask, Option<Crs>), Error> {
     /// Values of so many pixels at most are kept until the threshold is known.
     const KEPT: u64 = 1 << 24;
-    let Header { columns, rows, place, .. } = open(format, bytes)?.header().clone();
-    let (grid, crs) = match place {
-        Some(Place { origin, cell, crs }) => (Grid { origin, cell, columns, rows }, crs),
-        None => (Grid::of_image(columns, rows), None),
-    };
-    let mut mask = Mask::empty(grid).map_err(|error| Error::File { why: error.to_string() })?;
+    let (mut mask, crs) = open(format, bytes)?.header().placed()?;
+    let grid = *mask.grid();
+    let Grid { columns, rows, .. } = grid;
     let mut fill = |first: u32, values: &Values, threshold: f64| {
         values.fill(&mut mask, first, threshold, options.invert);
     };
@@ -238,7 +250,7 @@ pub struct Colours {
 /// If the bytes are no such image, are damaged, the image is too large or has no such band.
 pub fn read_colours(format: Format, bytes: &[u8], bands: &[usize]) -> Result<Colours, Error> {
     let image = open(format, bytes)?;
-    let Header { columns, rows, place, n_bands, is_colour } = image.header().clone();
+    let &Header { columns, rows, n_bands, is_colour, .. } = image.header();
     let refused = |why: String| Err(Error::File { why });
     if let Some(band) = bands.iter().find(|&&band| band == 0 || band > n_bands) {
         return refused(format!("the image has no band {band}; they go from 1 to {n_bands}"));
@@ -254,18 +266,9 @@ pub fn read_colours(format: Format, bytes: &[u8], bands: &[usize]) -> Result<Col
         bands => bands.iter().map(|band| band - 1).collect(),
     };
     let are_bands = !bands.is_empty() || !is_colour;
-    let (grid, crs) = match place {
-        Some(Place { origin, cell, crs }) => (Grid { origin, cell, columns, rows }, crs),
-        None => (Grid::of_image(columns, rows), None),
-    };
     // Labels are masks in the end.
-    Mask::empty(Grid { rows: rows.min(1), columns: columns.min(1), ..grid })
-        .map_err(|error| Error::File { why: error.to_string() })?;
-    if columns > Mask::MOST || rows > Mask::MOST {
-        return refused(format!(
-            "{columns} by {rows} pixels are too many; cut the image into tiles"
-        ));
-    }
+    let (mask, crs) = image.header().placed()?;
+    let grid = *mask.grid();
     let mut values = Vec::new();
     let wanted = if are_bands { Wanted::Bands(&chosen) } else { Wanted::Colour };
     image.decode(wanted, &mut |_, rows| {

@@ -65,32 +65,26 @@ impl Bits {
 
     /// Sets all cells of a row from one column up to, but not with, another one.
     pub fn set_run(&mut self, y: u32, from: u32, to: u32) {
-        let (mut x, to) = (from as i32, to as i32);
-        while x < to && x & 7 != 0 {
-            self.set(x, y as i32);
-            x += 1;
-        }
-        let whole = ((to - x) / 8).max(0);
-        let first = self.byte(x, y as i32);
-        self.data[first..first + whole as usize].fill(0xff);
-        for x in x + 8 * whole..to {
-            self.set(x, y as i32);
-        }
+        self.fill_run(y, from, to, 0xff, Self::set);
     }
 
     /// Clears all cells of a row from one column up to, but not with, another one.
     pub fn clear_run(&mut self, y: u32, from: u32, to: u32) {
+        self.fill_run(y, from, to, 0, Self::clear);
+    }
+
+    /// Puts whole bytes of a run at once, and what is left of it cell by cell.
+    #[inline(always)]
+    fn fill_run(&mut self, y: u32, from: u32, to: u32, byte: u8, put: fn(&mut Self, i32, i32)) {
         let (mut x, to) = (from as i32, to as i32);
         while x < to && x & 7 != 0 {
-            self.clear(x, y as i32);
+            put(self, x, y as i32);
             x += 1;
         }
         let whole = ((to - x) / 8).max(0);
         let first = self.byte(x, y as i32);
-        self.data[first..first + whole as usize].fill(0);
-        for x in x + 8 * whole..to {
-            self.clear(x, y as i32);
-        }
+        self.data[first..first + whole as usize].fill(byte);
+        (x + 8 * whole..to).for_each(|x| put(self, x, y as i32));
     }
 
     /// A cell and its eight neighbours, three bits a row from the one above, each from the left.
