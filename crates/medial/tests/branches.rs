@@ -4,7 +4,7 @@ mod support;
 
 use medial::axis::{Curve, Engine, KeypointKind, MedialAxis, Side};
 use medial::domain::{self, Domain};
-use medial::engine::{Options, both_sides, path_tracing};
+use medial::engine::{Options, both_sides, interior, path_tracing};
 use medial::geom::Point;
 use medial::ops::{
     Bend, Branch, Limb, Measure, Primitive, Trend, boundary_distance, branches, limb_pairs, limbs,
@@ -293,4 +293,36 @@ fn the_distance_of_boundaries_is_that_of_the_farthest_points() {
     let one = boundary_distance(&square(0.0, 8.0), &notched, 1e-6);
     assert!((one - 3.0).abs() < 1e-5, "{one}");
     assert_eq!(boundary_distance(&[], &square(0.0, 1.0), 1e-9), f64::INFINITY);
+}
+
+#[test]
+fn primitives_of_a_sampled_axis_say_what_its_radii_do() {
+    let mut seen = [0; 3];
+    for name in ["plus_of_unit_squares", "triangle_3_4_5", "comb_with_three_unit_teeth"] {
+        let domain = shapes::domain(name);
+        let options = Options { cell: Some(0.013), ..Options::default() };
+        let axis = interior(&domain, Engine::RasterTransform, &options).unwrap();
+        for branch in branches(&axis).iter() {
+            let mut last = None;
+            for piece in branch.pieces() {
+                let kind = (piece.primitive(), piece.trend());
+                assert_ne!(last, Some(kind), "{name}");
+                last = Some(kind);
+                let growths: Vec<f64> =
+                    piece.curves().map(|curve| curve.radius_to() - curve.radius_from()).collect();
+                let (k, holds): (usize, fn(f64) -> bool) = match kind {
+                    (Primitive::Worm, None) => (0, |growth| growth == 0.0),
+                    (Primitive::Wedge, Some(Trend::Opening)) => (1, |growth| growth >= 0.0),
+                    (Primitive::Wedge, Some(Trend::Closing)) => (2, |growth| growth <= 0.0),
+                    other => panic!("{name}: {other:?}"),
+                };
+                assert!(growths.iter().all(|&growth| holds(growth)), "{name}: {growths:?}");
+                assert!(k == 0 || growths.iter().any(|&growth| growth != 0.0), "{name}");
+                let length: f64 = piece.curves().map(|curve| curve.length()).sum();
+                assert!((length - piece.extent().length).abs() < 1e-9, "{name}");
+                seen[k] += 1;
+            }
+        }
+    }
+    assert!(seen.iter().all(|&n| n > 0), "{seen:?}");
 }

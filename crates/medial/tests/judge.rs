@@ -455,6 +455,18 @@ fn a_sampled_axis_is_judged_by_its_radii_and_topology() {
     assert_found!(judge(&domain, &parts), Defect::SampledRadius { .. });
 }
 
+#[test]
+fn a_step_out_of_the_shape_is_found_in_a_sampled_axis() {
+    let (domain, mut parts) = parts("comb_with_three_unit_teeth");
+    parts.accuracy = Accuracy::Sampled(0.01);
+    assert_eq!(check::defects(&domain, &parts.axis()).defects, []);
+    // From the first tooth to the last one.
+    let [a, b] = [parts.at(0.5, 1.5) as u32, parts.at(4.5, 1.5) as u32];
+    let path = parts.paths[0];
+    parts.paths.push(Path { from: a, to: b, ..path });
+    assert_found!(judge(&domain, &parts), Defect::Jump { .. });
+}
+
 /// The left half of the axis of a rectangle, cut in the middle of the plateau.
 fn half(domain: &Domain) -> Parts {
     let mut parts = Parts::of(&brute_force::axis(domain));

@@ -164,6 +164,15 @@ pub enum Defect {
         /// The point.
         at: Point,
     },
+    /// A path of a sampled axis runs farther than its samples allow outside of the disks at its ends.
+    Jump {
+        /// Number of the path.
+        path: u32,
+        /// What lies between the disks, in units of the input.
+        between: f64,
+        /// Where it starts.
+        at: Point,
+    },
     /// An end is not exactly a convex corner with its two edges and radius 0.
     End {
         /// Number of the keypoint.
@@ -365,6 +374,9 @@ impl fmt::Display for Defect {
             Self::Uncovered { edge, away, .. } => {
                 write!(f, "{edge}: {away} from every disk, more than twice the sample distance")
             }
+            Self::Jump { path, between, .. } => {
+                write!(f, "path {path} runs {between:e} outside of the disks at its ends")
+            }
             Self::End { keypoint, .. } => write!(
                 f,
                 "keypoint {keypoint}: an end must be a convex corner with its two edges, radius 0"
@@ -449,6 +461,7 @@ impl Defect {
             | Self::Radius { at, .. }
             | Self::SampledRadius { at, .. }
             | Self::Uncovered { at, .. }
+            | Self::Jump { at, .. }
             | Self::End { at, .. }
             | Self::Corner { at, .. }
             | Self::FakeTransition { at, .. }

@@ -119,6 +119,7 @@ fn judge(domain: &Domain, outside: Option<&Complement>, axis: &MedialAxis) -> Ve
         }
         Accuracy::Sampled(spacing) => {
             sampled::check_radii(&context, spacing, &mut defects);
+            sampled::check_steps(&context, spacing, &mut defects);
             if axis.complete {
                 sampled::check_cover(&context, spacing, &mut defects);
             }

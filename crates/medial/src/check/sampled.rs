@@ -2,7 +2,7 @@ use std::ops::{ControlFlow, Range};
 
 use super::Defect;
 use super::context::Context;
-use crate::geom::{BoundsTree, Point, Rect, Visitor};
+use crate::geom::{BoundsTree, Point, Rect, Visitor, orient2d};
 
 /// Checks the radii of an axis found from samples a distance `spacing` apart: each is the distance
 /// from the boundary, up to `spacing`.
@@ -20,6 +20,35 @@ pub(super) fn check_radii(context: &Context, spacing: f64, defects: &mut Vec<Def
             defects.push(Defect::SampledRadius { keypoint, off, at });
         }
     }
+}
+
+/// Checks that no path leaves the shape: one that crosses an edge is nowhere farther than twice `spacing` from
+/// the disks at its ends.
+pub(super) fn check_steps(context: &Context, spacing: f64, defects: &mut Vec<Defect>) {
+    for (number, path) in (0..).zip(context.axis.paths()) {
+        let [from, to] = [path.from, path.to].map(|end| context.axis.keypoints().at(end));
+        let way = to.position - from.position;
+        let between = way.norm() - from.radius - to.radius;
+        if between <= 4.0 * spacing {
+            continue;
+        }
+        let (middle, half) = (from.position + way * 0.5, 0.5 * way.norm());
+        let end = context.tree.nearest_first(middle, |edge| {
+            let sides = [context.domain.edge(edge).start, context.domain.end(edge)];
+            let is_crossed = is_across([from.position, to.position], sides)
+                && is_across(sides, [from.position, to.position]);
+            if is_crossed { ControlFlow::Break(()) } else { ControlFlow::Continue(half) }
+        });
+        if end.is_break() || between.is_nan() {
+            defects.push(Defect::Jump { path: number, between, at: from.position });
+        }
+    }
+}
+
+/// Whether two points lie on different sides of the line through two others.
+fn is_across([a, b]: [Point; 2], [p, q]: [Point; 2]) -> bool {
+    let (p, q) = (orient2d(a, b, p), orient2d(a, b, q));
+    p < 0.0 && q > 0.0 || p > 0.0 && q < 0.0
 }
 
 /// Checks that the disks of a complete axis leave no part of the boundary alone: points of it a distance

@@ -4,12 +4,15 @@
 //! A point of the axis is an end, a normal point or a branch point: its disk touches the boundary in one
 //! place, in two, or in more. That is its degree. Branches are the ways through normal points, each in one
 //! direction; a component without any other point is one closed branch. A branch is cut where its primitive
-//! changes, which is decided by the governors and never by a radius that was computed.
+//! changes, which in an exact axis is decided by the governors and never by a radius that was computed.
 //!
 //! # Method
 //! What the radius does along a path depends on its governors only: between parallel edges it stays (worm),
 //! between other edges it grows or shrinks at one rate (wedge), with a corner the rate itself grows
 //! (flare), and changes its sign at the neck. An axis of polygons has no cups.
+//!
+//! Governors of a sampled axis are as rough as its cells, so there the radii decide: a wedge is as long as they do
+//! not turn back, level steps in between included, and other level steps are worms.
 //!
 //! # Departures
 //! The paper allows axes of any curvature. Those of polygons are straight, or spirals: a parabola bends
@@ -19,7 +22,7 @@ use std::fmt;
 
 use super::groups::Incidence;
 use super::outline::foot_on;
-use crate::axis::{Curve, MedialAxis, Path, SiteKind, SiteShape, names};
+use crate::axis::{Accuracy, Curve, MedialAxis, Path, SiteKind, SiteShape, names};
 use crate::geom::{Point, cross_directions};
 
 /// What the radius does along a piece of a branch.
@@ -83,6 +86,7 @@ names!(
 #[derive(Clone)]
 pub struct Branches<'a> {
     axis: &'a MedialAxis,
+    is_sampled: bool,
     /// The paths along all branches: path `k` in its own direction as `2k`, against it as `2k + 1`.
     passed: Vec<u32>,
     pieces: Vec<PieceRecord>,
@@ -110,6 +114,8 @@ struct PieceRecord {
 }
 
 type Kind = (Primitive, Option<Trend>, Bend);
+
+const WORM: Kind = (Primitive::Worm, None, Bend::Straight);
 
 /// A way through an axis between two points that are no normal points, or around a cycle of normal points.
 #[derive(Clone, Copy)]
@@ -188,6 +194,7 @@ pub fn branches(axis: &MedialAxis) -> Branches<'_> {
     let n_ends: usize = (0..n).map(|k| around.degree(k)).filter(|&degree| degree != 2).sum();
     let mut branches = Branches {
         axis,
+        is_sampled: axis.accuracy != Accuracy::Exact,
         passed: Vec::with_capacity(n_paths),
         // Those with a neck are two pieces.
         pieces: Vec::with_capacity(n_paths + n_paths / 4),
@@ -365,6 +372,9 @@ impl<'a> Branches<'a> {
         sites: &[SiteShape; 2],
         disks: [(Point, f64); 2],
     ) {
+        if self.is_sampled {
+            return self.add_sampled(open, place, &Extent::of_line(disks));
+        }
         if let [SiteKind::Edge, SiteKind::Edge] = [sites[0].kind, sites[1].kind] {
             let kind = kind_between_edges(sites);
             return self.add(open, kind, place, [false; 2], &Extent::of_line(disks));
@@ -399,6 +409,25 @@ impl<'a> Branches<'a> {
         }
         self.end_piece(open);
         self.pieces.push(PieceRecord { kind, extent: *next, passed: [place; 2], at_neck });
+    }
+
+    /// Adds a step of a sampled axis: level ones between steps that both rise, or both fall, belong to them.
+    fn add_sampled(&mut self, open: &mut Open, place: u32, next: &Extent) {
+        let rise = next.radius_end - next.radius_start;
+        if rise == 0.0 {
+            return self.add(open, WORM, place, [false; 2], next);
+        }
+        let kind = (Primitive::Wedge, Some(trend(rise > 0.0)), Bend::Straight);
+        if let [.., before, level] = self.pieces[open.pieces..]
+            && (before.kind, level.kind) == (kind, WORM)
+        {
+            self.end_piece(open);
+            let level = self.pieces.pop().unwrap_or(level);
+            let mut sum = Sum::of(&before.extent);
+            sum.add(&level.extent);
+            open.piece = Some(sum);
+        }
+        self.add(open, kind, place, [false; 2], next);
     }
 
     /// Says what the extent of the last piece is.
@@ -614,11 +643,7 @@ fn kind_between_edges([left, right]: &[SiteShape; 2]) -> Kind {
     // One of them runs in the direction of the path and the other against it: inside the right one does,
     // outside the left one.
     let turn = cross_directions(right.a, right.b, left.b, left.a);
-    if turn == 0.0 {
-        (Primitive::Worm, None, Bend::Straight)
-    } else {
-        (Primitive::Wedge, Some(trend(turn > 0.0)), Bend::Straight)
-    }
+    if turn == 0.0 { WORM } else { (Primitive::Wedge, Some(trend(turn > 0.0)), Bend::Straight) }
 }
 
 /// The primitive of a curve with these governors, left and right, one of them a corner, on which the radius

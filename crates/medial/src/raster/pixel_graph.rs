@@ -136,8 +136,9 @@ impl PixelGraph {
         self.keep(&dropped, |node| node);
     }
 
-    /// Joins junctions that are beside one another within three by three cells, each set at its node of the largest
-    /// radius, of several that which is nearest to the middle. Sets around a hole stay as they are, and so do those that would have two steps between them.
+    /// Joins junctions that are beside one another within three by three cells, each set at a node beside all
+    /// others, if there is one: that of the largest radius, of several that which is nearest to the middle. Sets
+    /// around a hole stay as they are, and so do those that would have two steps between them.
     pub(crate) fn join_junctions(&mut self, radius: impl Fn(u32) -> f64) {
         let n = self.cells.len();
         let (starts, _) = self.incidence();
@@ -173,10 +174,16 @@ impl PixelGraph {
             let cell = self.cells[node as usize];
             (0..2).map(|axis| (2 * cell[axis]).abs_diff(low[axis] + high[axis])).sum::<u32>()
         };
+        let is_far = |node: u32| {
+            let [low, high] = boxes[set[node as usize] as usize];
+            let cell = self.cells[node as usize];
+            (0..2).any(|axis| cell[axis] - low[axis] > 1 || high[axis] - cell[axis] > 1)
+        };
         let mut best: Vec<u32> = (0..n as u32).collect();
         for node in 0..n as u32 {
             let set = set[node as usize] as usize;
-            let order = radius(node).total_cmp(&radius(best[set]));
+            let order = is_far(best[set]).cmp(&is_far(node));
+            let order = order.then_with(|| radius(node).total_cmp(&radius(best[set])));
             if order.then_with(|| off(best[set]).cmp(&off(node))).is_gt() {
                 best[set] = node;
             }
