@@ -94,7 +94,9 @@ impl CompressArgs {
                 return usage("--method, --prune and --coverage are for cells of images");
             }
             if self.max_error.is_none() {
-                return usage("polygons need --max-error V, how far their boundary may move");
+                let why = "polygons need --max-error V, how far their boundary may move; images \
+                           become polygons with any engine but raster_transform";
+                return usage(why);
             }
             return Ok(());
         }

@@ -220,8 +220,16 @@ pub fn read_mask(
     Ok((mask, crs))
 }
 
+/// An image of a format, or of another one if its first bytes say so: names of images are often wrong.
 fn open<'b>(format: Format, bytes: &'b [u8]) -> Result<Box<dyn Image + 'b>, Error> {
-    match format {
+    let is_image = matches!(format, Format::Png | Format::Tiff | Format::Jpeg);
+    let told = match bytes {
+        [0x89, b'P', b'N', b'G', ..] => Format::Png,
+        [b'I', b'I', 42 | 43, 0, ..] | [b'M', b'M', 0, 42 | 43, ..] => Format::Tiff,
+        [0xFF, 0xD8, 0xFF, ..] => Format::Jpeg,
+        _ => format,
+    };
+    match if is_image { told } else { format } {
         Format::Png => png::open(bytes),
         Format::Tiff => tiff::open(bytes),
         Format::Jpeg => jpeg::open(bytes),

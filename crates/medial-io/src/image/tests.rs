@@ -37,6 +37,8 @@ fn png_images_of_all_kinds_are_masks() {
     let plain = ReadOptions::default();
     let one_bit = png_of(3, 2, ColorType::Grayscale, BitDepth::One, &[0b1010_0000, 0b0100_0000]);
     assert_eq!(drawn(Format::Png, &one_bit, &plain), ["#.#", ".#."]);
+    // What a file is called may be wrong.
+    assert_eq!(drawn(Format::Tiff, &one_bit, &plain), ["#.#", ".#."]);
     let inverted = ReadOptions { invert: true, ..ReadOptions::default() };
     assert_eq!(drawn(Format::Png, &one_bit, &inverted), [".#.", "#.#"]);
     let grey = png_of(3, 1, ColorType::Grayscale, BitDepth::Eight, &[0, 100, 255]);
