@@ -32,7 +32,7 @@ The engine knows which samples are neighbours; the one-step crust finds that out
 - *broken*: by how many the components of the axis, pruned by a chord residual of 2 pixels, differ from those of the mask.
 - *ends*: of that axis, on average.
 
-Nearly all false edges join both sides of a place where two pixels touch at a corner only: the outline leaves half a diagonal between them there, for which half a pixel is too coarse.
+Nearly all false edges join both sides of a place where two pixels touch at a corner only: the outline leaves half a diagonal between them there, so samples are twice as dense at such places.
 
 """
 

@@ -244,7 +244,7 @@ impl<'a> DelaunayDual<'a> {
         let plane = Plane::of_cells(mask.grid());
         let size = mask.grid().cell_size();
         let mut spacing = options.spacing.unwrap_or(MASK_SPACING * size);
-        let mut samples = Samples::of_cracks(&cracks, plane.factors(), spacing / size)?;
+        let mut samples = Samples::of_cracks(&mask.bits, &cracks, plane.factors(), spacing / size)?;
         if width > 0.0 {
             // Where cells are no squares, the plane of samples has the size of the cells.
             let factor = size / plane.unit();

@@ -6,7 +6,7 @@ use std::ops::Range;
 use crate::domain::{Corner, Domain, Site, Walk};
 use crate::engine::EngineError;
 use crate::geom::{Delaunay, Point};
-use crate::raster::{Cracks, Grid};
+use crate::raster::{Bits, Cracks, Grid};
 
 /// Samples up to which a boundary can be triangulated: each needs some 200 bytes.
 const MOST: f64 = 1e8;
@@ -64,8 +64,10 @@ impl Samples {
     }
 
     /// Samples of the outline of a mask, at most so far from one another, in sides of cells: the middles of cracks,
-    /// and points between these. The plane is that of columns and rows, both times a factor.
+    /// and points between these, twice as many where cells touch at a corner only: the outline leaves half a diagonal
+    /// between them there. The plane is that of columns and rows, both times a factor.
     pub fn of_cracks(
+        bits: &Bits,
         cracks: &Cracks,
         factors: [f64; 2],
         spacing: f64,
@@ -99,6 +101,7 @@ impl Samples {
             let first = samples.len();
             for (k, &(from, edge)) in middles.iter().enumerate() {
                 let (to, next) = middles[(k + 1) % middles.len()];
+                let pieces = if is_pinched(bits, from, to) { 2.0 * pieces } else { pieces };
                 for k in 0..pieces as u32 {
                     let share = f64::from(k) / pieces;
                     let point = [0, 1].map(|k| from[k] + (to[k] - from[k]) * share);
@@ -215,6 +218,19 @@ impl Samples {
         }
         along
     }
+}
+
+/// Whether the outline turns, between the middles of two cracks, at a corner where cells touch.
+fn is_pinched(bits: &Bits, from: [f64; 2], to: [f64; 2]) -> bool {
+    if from[0] == to[0] || from[1] == to[1] {
+        return false;
+    }
+    // Columns are whole on cracks between columns, rows on those between rows.
+    let corner = if from[0].fract() == 0.0 { [from[0], to[1]] } else { [to[0], from[1]] };
+    let [x, y] = corner.map(|at| at as i32);
+    let [a, b, c, d] =
+        [[x - 1, y - 1], [x, y - 1], [x - 1, y], [x, y]].map(|[x, y]| bits.get(x, y));
+    a == d && b == c
 }
 
 /// From the plane of samples to that of the input.
