@@ -4,7 +4,7 @@ use crate::args::Common;
 use crate::failure::Failure;
 use crate::report::Entry;
 use medial::geom::Point;
-use medial_io::{Feature, geojson};
+use medial_io::{Crs, Feature, geojson};
 
 /// Metres of a degree along the equator of the WGS 84 ellipsoid.
 const DEGREE: f64 = 6_378_137.0 * std::f64::consts::PI / 180.0;
@@ -26,6 +26,18 @@ impl Metric {
             return Err(Failure::Usage(why));
         }
         Ok(())
+    }
+
+    /// Fails if coordinates in this reference system are known to be no degrees.
+    pub fn check(crs: Option<&Crs>, input: &str) -> Result<(), Failure> {
+        let Some(crs) = crs.filter(|crs| crs.is_defined()) else { return Ok(()) };
+        let why = match crs.angular_unit() {
+            Some((_, 1.0)) => return Ok(()),
+            Some((unit, _)) => format!("{unit}s; project them, or make degrees of them, first"),
+            None => "no longitudes and latitudes; measure without --metric".to_owned(),
+        };
+        let why = format!("--metric is for degrees; the coordinates of {input} ({crs}) are {why}");
+        Err(Failure::Usage(why))
     }
 
     /// The scale in the middle of the box of a feature, whose coordinates become metres.

@@ -163,6 +163,20 @@ fn degrees_are_metres_on_request() {
     let longest =
         text.text().split(['(', ',', ' ']).filter_map(|w| w.trim_end_matches(')').parse().ok());
     assert!(longest.fold(0.0, f64::max) > 1e6);
+    // What is known to be no degrees is not taken for them.
+    let of = |code: u32| {
+        let crs = format!("urn:ogc:def:crs:EPSG::{code}");
+        format!(
+            r#"{{"type":"FeatureCollection","crs":{{"type":"name","properties":{{"name":"{crs}"}}}},"features":[{{"type":"Feature","properties":{{}},"geometry":{{"type":"Polygon","coordinates":[[[0,0],[10,0],[10,5],[0,5],[0,0]]]}}}}]}}"#
+        )
+    };
+    let metres = medial_with(&["axis", "-", "--metric"], &of(2056));
+    assert_eq!(metres.status, 2);
+    assert!(metres.errors.contains("no longitudes and latitudes"), "{}", metres.errors);
+    let grads = medial_with(&["axis", "-", "--metric"], &of(4807));
+    assert!(grads.status == 2 && grads.errors.contains("are grads"), "{}", grads.errors);
+    let told = medial_with(&["axis", "-"], &of(4807)).errors;
+    assert!(told.contains("the coordinates are grads"), "{told}");
     let refused = medial_with(&["locate", "-", "7.5", "60", "--metric"], polygon);
     assert_eq!(refused.status, Some(2));
     let pole = polygon.replace("59.95", "89.99").replace("60.05", "90.5");

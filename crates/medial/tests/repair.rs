@@ -332,6 +332,21 @@ fn a_ring_given_twice_counts_once() {
     assert_eq!((entry.repair, entry.ring), (Repair::DuplicateRing, 2));
     let domain = repaired(&vec![vec![outer.clone(), hole.clone()], vec![outer, hole]]);
     assert_eq!((domain.area(), count(&domain, Repair::DuplicateRing)), (77.0, 1));
+    // Vertices on edges, spikes, and a least vertex that comes twice do not make another ring of it.
+    let same = [
+        ring(&[(3.0, 0.0), (0.0, 1.0), (0.0, 2.0), (0.0, 1.0), (0.0, 5.0), (3.0, 0.0)]),
+        ring(&[(3.0, 0.0), (0.0, 5.0), (0.0, 1.0), (0.0, 2.0), (0.0, 1.0), (3.0, 0.0)]),
+        ring(&[(1.5, 0.5), (3.0, 0.0), (0.0, 5.0), (0.0, 3.0), (0.0, 1.0), (-3.0, 2.0), (0.0, 1.0)]),
+    ];
+    for (first, second) in [(0, 1), (0, 2), (1, 2)] {
+        let domain = repaired(&vec![vec![same[first].clone(), same[second].clone()]]);
+        assert_eq!((domain.area(), count(&domain, Repair::DuplicateRing)), (6.0, 1));
+    }
+    // A bow tie runs twice through its middle: both ways round it is the same one.
+    let tie = ring(&[(0.0, 0.0), (1.0, 1.0), (0.0, 2.0), (2.0, 2.0), (1.0, 1.0), (2.0, 0.0)]);
+    let back: Vec<Point> = tie.iter().rev().copied().collect();
+    let domain = repaired(&vec![vec![tie, back]]);
+    assert_eq!((domain.area(), count(&domain, Repair::DuplicateRing)), (2.0, 1));
 }
 
 #[test]

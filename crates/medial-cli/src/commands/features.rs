@@ -120,6 +120,9 @@ impl Run {
         for warning in &layer.warnings {
             progress.warning(&format!("{}: {warning}", input.name));
         }
+        if common.metric {
+            Metric::check(layer.crs.as_ref(), &input.name)?;
+        }
         let find = Arc::new(Mutex::new(Duration::ZERO));
         // Bytes of earlier batches, for their memory: it grows once and stays warm.
         let spare = Arc::new(Mutex::new(Vec::new()));
@@ -281,10 +284,11 @@ fn told_of_degrees<'a>(
     is_metric: bool,
     progress: &Progress,
 ) -> impl Iterator<Item = Part<'a>> + Send + use<'a> {
-    let crs = layer.crs.clone().filter(|crs| crs.is_geographic() && !is_metric);
+    let crs = layer.crs.clone().filter(|_| !is_metric);
+    let angle = crs.and_then(|crs| crs.angular_unit().map(|(unit, _)| (crs, unit)));
     let mut parts = layer.parts();
     let mut first = None;
-    if let Some(crs) = crs {
+    if let Some((crs, unit)) = angle {
         let mut are_degrees = true;
         if crs.is_assumed() {
             let read = parts.next().map(Part::read);
@@ -293,9 +297,13 @@ fn told_of_degrees<'a>(
         }
         if are_degrees {
             progress.warning(&format!(
-                "{}: the coordinates are degrees ({crs}), and so are lengths, widths and radii; \
-                 degrees of longitude are shorter than those of latitude: --metric measures in metres",
-                input.name
+                "{}: the coordinates are {unit}s ({crs}), and so are lengths, widths and radii; \
+                 {unit}s of longitude are shorter than those of latitude: {}",
+                input.name,
+                match unit.as_str() {
+                    "degree" => "--metric measures in metres",
+                    _ => "project them first",
+                }
             ));
         }
     }

@@ -225,6 +225,35 @@ impl Crs {
         )
     }
 
+    /// The name of the unit of longitudes and latitudes, if coordinates are these, and how many degrees it has.
+    ///
+    /// ```
+    /// assert_eq!(medial_io::Crs::epsg(4326).angular_unit(), Some(("degree".to_owned(), 1.0)));
+    /// let (name, degrees) = medial_io::Crs::epsg(4807).angular_unit().unwrap();
+    /// assert_eq!((name.as_str(), (degrees * 10.0).round()), ("grad", 9.0));
+    /// ```
+    #[must_use]
+    pub fn angular_unit(&self) -> Option<(String, f64)> {
+        if !self.is_geographic() {
+            return None;
+        }
+        let projjson = self.projjson().and_then(|text| serde_json::from_str::<Value>(&text).ok());
+        let unit = projjson.as_ref().and_then(first_unit);
+        let named = unit.and_then(|unit| {
+            let degrees = unit["conversion_factor"].as_f64()?.to_degrees();
+            // However the degree is called and rounded.
+            let is_other = (degrees - 1.0).abs() > 1e-9;
+            is_other.then_some((unit["name"].as_str()?.to_owned(), degrees))
+        });
+        Some(named.unwrap_or_else(|| ("degree".to_owned(), 1.0)))
+    }
+
+    /// Whether anything tells what its coordinates are.
+    #[must_use]
+    pub fn is_defined(&self) -> bool {
+        self.projjson.is_some() || self.wkt().is_some()
+    }
+
     /// Whether the input says nothing of it, and the rules of its format do.
     #[must_use]
     pub fn is_assumed(&self) -> bool {
@@ -303,6 +332,15 @@ fn is_geographic_text(wkt: &str) -> bool {
     let degrees = first(&["GEOGCS", "GEOGCRS", "GEODCRS", "GEOGRAPHICCRS", "GEODETICCRS"]);
     let others = first(&["PROJCS", "PROJCRS", "PROJECTEDCRS", "GEOCCS", "LOCAL_CS", "ENGCRS"]);
     degrees.is_some_and(|at| others.is_none_or(|other| at < other))
+}
+
+/// The unit of the first axis of a system in PROJJSON.
+fn first_unit(crs: &Value) -> Option<&Value> {
+    match crs["type"].as_str() {
+        Some("CompoundCRS") => first_unit(crs["components"].get(0)?),
+        Some("BoundCRS") => first_unit(crs.get("source_crs")?),
+        _ => crs["coordinate_system"]["axis"].get(0)?.get("unit"),
+    }
 }
 
 /// The same of PROJJSON.

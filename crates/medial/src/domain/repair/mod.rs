@@ -20,14 +20,15 @@ mod noding;
 mod tracing;
 mod winding;
 
-use std::collections::{BTreeMap, HashSet};
+use std::cmp::Ordering;
+use std::collections::{BTreeMap, HashSet, VecDeque};
 
 use super::origins::{Origins, Source};
 use super::reduce::{open_len, reduce};
 use super::{
     CornerOrigin, Domain, DomainError, Entry, FillRule, Options, Origin, Place, Repair, Report,
 };
-use crate::geom::{Point, order_key};
+use crate::geom::{Point, order_key, orient2d};
 use noding::{Noded, Strand};
 use tracing::Directed;
 use winding::Piece;
@@ -211,21 +212,66 @@ impl Edges {
     }
 }
 
-/// The vertices of a ring from its smallest one on, towards the smaller one of its neighbours: the same
-/// for a ring that starts elsewhere, or runs the other way; empty if it encloses nothing.
+/// The corners of a ring in an order that is the same for a ring that starts elsewhere, runs the other way, or
+/// has more vertices on its edges or spikes; empty if it encloses nothing.
 fn form(ring: &[Point]) -> Vec<(i64, i64)> {
-    let key = |p: &Point| (order_key(p.x), order_key(p.y));
-    let mut keys: Vec<_> = ring[..open_len(ring)].iter().map(key).collect();
-    keys.dedup();
-    if keys.len() < 3 {
+    let corners = corners(&ring[..open_len(ring)]);
+    if corners.len() < 3 {
         return Vec::new();
     }
-    let least = (0..keys.len()).min_by_key(|&k| keys[k]).unwrap_or(0);
-    keys.rotate_left(least);
-    if keys[keys.len() - 1] < keys[1] {
-        keys[1..].reverse();
+    let key = |p: &Point| (order_key(p.x), order_key(p.y));
+    let mut there: Vec<_> = corners.iter().map(key).collect();
+    let mut back: Vec<_> = there.iter().rev().copied().collect();
+    for keys in [&mut there, &mut back] {
+        let start = least_rotation(keys);
+        keys.rotate_left(start);
     }
-    keys
+    there.min(back)
+}
+
+/// The vertices of a closed ring at which it turns.
+fn corners(ring: &[Point]) -> Vec<Point> {
+    let is_none = |a: Point, b: Point, c: Point| a == b || b == c || orient2d(a, b, c) == 0.0;
+    let mut kept: VecDeque<Point> = VecDeque::with_capacity(ring.len());
+    for &vertex in ring {
+        while let [.., a, b] = *kept.make_contiguous()
+            && is_none(a, b, vertex)
+        {
+            kept.pop_back();
+        }
+        kept.push_back(vertex);
+    }
+    // Around the vertex where it starts.
+    while kept.len() > 2 {
+        let last = kept.len() - 1;
+        if is_none(kept[last - 1], kept[last], kept[0]) {
+            kept.pop_back();
+        } else if is_none(kept[last], kept[0], kept[1]) {
+            kept.pop_front();
+        } else {
+            break;
+        }
+    }
+    kept.into()
+}
+
+/// Where the rotation of a cyclic list starts that comes first, by comparing two starts at a time: O(n).
+fn least_rotation<T: Ord>(list: &[T]) -> usize {
+    let n = list.len();
+    let (mut first, mut second, mut same) = (0, 1, 0);
+    while first < n && second < n && same < n {
+        match list[(first + same) % n].cmp(&list[(second + same) % n]) {
+            Ordering::Equal => {
+                same += 1;
+                continue;
+            }
+            Ordering::Greater => first += same + 1,
+            Ordering::Less => second += same + 1,
+        }
+        second += usize::from(first == second);
+        same = 0;
+    }
+    first.min(second)
 }
 
 /// The pieces that strands are made of, and which polygon uses which of them, polygon by polygon.
