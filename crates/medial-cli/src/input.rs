@@ -1,5 +1,6 @@
 use crate::failure::{Failure, plain};
 use crate::guard::guarded;
+use crate::output::reads;
 use medial_io::axis_document::{self, AxisDocument};
 use medial_io::{Content, Crs, Error, Format, Layer, ReadOptions, maxis, svg};
 use std::cell::RefCell;
@@ -59,6 +60,7 @@ impl Input {
     /// Reads a file, or standard input for `-`.
     pub fn read(path: &Path) -> Result<Self, Failure> {
         let name = name(path);
+        reads(path)?;
         let mut bytes = Vec::new();
         open(path)
             .and_then(|mut source| source.read_to_end(&mut bytes))
@@ -113,6 +115,7 @@ impl Opened {
         fonts: &[PathBuf],
     ) -> Result<Self, Failure> {
         let name = name(path);
+        reads(path)?;
         let known = from.or_else(|| Format::from_path(path).ok());
         if let Some(format) = known.filter(|format| format.is_table()) {
             return table(path, name, format, options);

@@ -3,7 +3,7 @@ use crate::interrupt;
 use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 use tempfile::NamedTempFile;
 
 /// Bytes gathered before they are handed to the system.
@@ -23,17 +23,57 @@ pub enum Output {
 /// The files that a run is going to write.
 static TAKEN: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 
+/// The files that are read, and those beside the results that were there before.
+static INPUTS: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
+static SIDE_FILES: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
+
+fn locked(list: &Mutex<Vec<PathBuf>>) -> MutexGuard<'_, Vec<PathBuf>> {
+    list.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Takes note of an input; fails if a report or a table of numbers would take its place.
+pub fn reads(path: &Path) -> Result<(), Failure> {
+    let Ok(place) = fs::canonicalize(path) else { return Ok(()) };
+    if locked(&SIDE_FILES).contains(&place) {
+        return Err(is_input(path));
+    }
+    locked(&INPUTS).push(place);
+    Ok(())
+}
+
+fn is_input(path: &Path) -> Failure {
+    Failure::Usage(format!("{} is the input; name another file for what is told", path.display()))
+}
+
+/// Extensions of the files that are written beside a shapefile.
+const BESIDE: [&str; 4] = ["shx", "dbf", "cpg", "prj"];
+
 /// Fails if two outputs are to be one file, of which the last would be all that is left.
 fn take(folder: &Path, path: &Path, name: &str) -> Result<(), Failure> {
     let folder = fs::canonicalize(folder).unwrap_or_else(|_| folder.to_owned());
     let place = folder.join(path.file_name().unwrap_or_default());
-    let mut taken = TAKEN.lock().unwrap_or_else(PoisonError::into_inner);
-    if taken.contains(&place) {
+    let is_shapefile = place.extension().is_some_and(|e| e.eq_ignore_ascii_case("shp"));
+    let beside = BESIDE.iter().filter(|_| is_shapefile).map(|e| place.with_extension(e));
+    let places: Vec<PathBuf> = std::iter::once(place.clone()).chain(beside).collect();
+    let mut taken = locked(&TAKEN);
+    if places.iter().any(|place| taken.contains(place)) {
         let why = format!("{name} is named for two outputs; give each a file of its own");
         return Err(Failure::Usage(why));
     }
-    taken.push(place);
+    taken.extend(places);
     Ok(())
+}
+
+/// The file that a link names, also where there is none yet.
+fn followed(path: &Path) -> PathBuf {
+    /// Links of links.
+    const MOST: usize = 40;
+    let mut place = path.to_owned();
+    for _ in 0..MOST {
+        let Ok(next) = fs::read_link(&place) else { break };
+        place = place.parent().unwrap_or(Path::new("")).join(next);
+    }
+    fs::canonicalize(&place).unwrap_or(place)
 }
 
 impl Output {
@@ -47,7 +87,7 @@ impl Output {
             Failure::file(&name, format_args!("cannot create: {}", plain(&error)))
         };
         // Follow links, so that the file they name is replaced and not the link.
-        let path = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
+        let path = followed(path);
         if let Ok(found) = fs::metadata(&path)
             && !found.is_file()
         {
@@ -66,6 +106,17 @@ impl Output {
         }
         let file = interrupt::unfinished(|| builder.tempfile_in(folder)).map_err(failed)?;
         Ok(Self::File { text: io::BufWriter::with_capacity(BUFFER, file), path })
+    }
+
+    /// A file beside the results, which is not to take the place of an input.
+    pub fn beside(path: &Path) -> Result<Self, Failure> {
+        if let Ok(place) = fs::canonicalize(path) {
+            locked(&SIDE_FILES).push(place.clone());
+            if locked(&INPUTS).contains(&place) {
+                return Err(is_input(path));
+            }
+        }
+        Self::create(Some(path))
     }
 
     /// Where a file is while it is not complete, for who writes it by its path.

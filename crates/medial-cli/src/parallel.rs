@@ -13,7 +13,7 @@ const AHEAD: usize = 16;
 
 /// Most threads that are given up and still at work; beyond, items are waited for however long they take,
 /// so that neither memory nor processors are lost to ever more of them.
-const GIVEN_UP: usize = 16;
+const GIVEN_UP: usize = 4;
 
 /// How long an item may take, and what stands for its result if it takes longer.
 pub struct Limit<R> {

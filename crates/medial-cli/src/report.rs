@@ -15,6 +15,9 @@ pub struct Report {
     pub done: usize,
     /// Number of features left out.
     pub left_out: usize,
+    /// Whether there will be a report: else features are only counted.
+    #[serde(skip)]
+    pub is_wanted: bool,
     /// The features there is something to say of.
     pub features: Vec<FeatureReport>,
 }

@@ -414,4 +414,29 @@ fn two_outputs_are_two_files() {
         assert!(run.errors.contains("is named for two outputs"), "{}", run.errors);
         assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
     }
+    // Neither may be one of the files of a shapefile, or the input.
+    let shapes = folder.path().join("all.shp").display().to_string();
+    let table = folder.path().join("all.dbf").display().to_string();
+    let run = medial(&["axis", &file, "-o", &shapes, "--report", &table]);
+    assert_eq!(run.status, Some(2), "{}", run.errors);
+    let copy = folder.path().join("l.wkt").display().to_string();
+    std::fs::copy(&file, &copy).unwrap();
+    for option in ["--report", "--timings", "--nodes"] {
+        let run = medial(&["axis", &copy, "--to", "csv", option, &copy]);
+        assert_eq!(run.status, Some(2), "{}", run.errors);
+        assert!(run.errors.contains("is the input"), "{}", run.errors);
+        assert_eq!(std::fs::read(&copy).unwrap(), std::fs::read(&file).unwrap());
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn a_link_to_no_file_yet_gets_one() {
+    let folder = tempfile::tempdir().unwrap();
+    let (link, target) = (folder.path().join("link.json"), folder.path().join("all.json"));
+    std::os::unix::fs::symlink("all.json", &link).unwrap();
+    let file = fixture("shapes/l_with_unit_arms.wkt").display().to_string();
+    let run = medial(&["axis", &file, "-o", &link.display().to_string()]);
+    assert_eq!(run.status, Some(0), "{}", run.errors);
+    assert!(target.is_file() && link.is_symlink());
 }

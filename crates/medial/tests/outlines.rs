@@ -127,6 +127,29 @@ fn is_same_ring(given: &[Point], found: &[Point]) -> bool {
 }
 
 #[test]
+fn rings_that_belonged_elsewhere_come_back_with_the_polygon_they_bound() {
+    let square = |x: f64, y: f64, side: f64| {
+        [(x, y), (x + side, y), (x + side, y + side), (x, y + side)]
+            .map(|(x, y)| Point::new(x, y))
+            .to_vec()
+    };
+    let again = |rings: &[Vec<Vec<Point>>]| {
+        let options = domain::Options { repair: true, ..domain::Options::default() };
+        let domain = Domain::from_polygons(rings, &options).unwrap();
+        polygons_of(&path_tracing(&domain).unwrap()).unwrap()
+    };
+    // A hole outside, an island in a hole, a hole before its outer ring.
+    let [a, b, c] = [square(0.0, 0.0, 9.0), square(2.0, 2.0, 4.0), square(3.0, 3.0, 1.0)];
+    let far = square(20.0, 0.0, 1.0);
+    let apart = again(&[vec![a.clone(), far.clone()]]);
+    assert_eq!(apart, [vec![a.clone()], vec![far.clone()]]);
+    let island = again(&[vec![a.clone(), b.clone(), c.clone()]]);
+    assert_eq!(island, [vec![a.clone(), b.clone()], vec![c]]);
+    let whole = again(&[vec![b.clone(), a.clone()]]);
+    assert_eq!(whole, [vec![a, b]]);
+}
+
+#[test]
 fn complete_axes_give_back_their_polygons_bit_for_bit() {
     for name in shapes::names() {
         let polygons = shapes::polygons(&name);

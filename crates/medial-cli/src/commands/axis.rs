@@ -72,7 +72,7 @@ fn run_on(args: &'static AxisArgs, documents: Documents) -> Result<Status, Failu
     let crs = layer.crs.clone();
     let head = head(format, csv::header(&args.measures, drawing), layer.units);
     let mut sink = Sink::create(args.output.as_deref(), format, head, crs, args.common.quiet)?;
-    let mut nodes = args.nodes.as_deref().map(|path| Output::create(Some(path))).transpose()?;
+    let mut nodes = args.nodes.as_deref().map(Output::beside).transpose()?;
     if let Some(nodes) = &mut nodes {
         nodes.write(csv::node_header().as_bytes())?;
     }

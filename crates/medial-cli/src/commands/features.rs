@@ -53,7 +53,7 @@ impl Run {
     /// A run that begins now; fails if the files beside its result cannot be written.
     pub fn new(common: &'static Common) -> Result<Self, Failure> {
         let create = |path: &Option<PathBuf>| {
-            path.as_deref().map(|path| Output::create(Some(path))).transpose()
+            path.as_deref().map(Output::beside).transpose()
         };
         Ok(Self {
             common,
@@ -116,7 +116,11 @@ impl Run {
     ) -> Result<Status, Failure> {
         let common = self.common;
         let progress = Progress::new(common.progress, common.quiet, layer.len);
-        let mut report = Report { input: input.name.clone(), ..Report::default() };
+        let mut report = Report {
+            input: input.name.clone(),
+            is_wanted: common.report.is_some(),
+            ..Report::default()
+        };
         for warning in &layer.warnings {
             progress.warning(&format!("{}: {warning}", input.name));
         }
@@ -452,7 +456,7 @@ fn tell<R>(
         }
         _ => report.done += 1,
     }
-    if !entries.is_empty() {
+    if report.is_wanted && !entries.is_empty() {
         report.features.push(FeatureReport { feature: index, id, entries });
     }
     result

@@ -15,11 +15,14 @@
 //! # Departures
 //! None: at branch points nothing is done, as in the paper, and ends get a few points around them.
 
+use std::collections::BTreeMap;
+
 #[cfg(feature = "union")]
 use i_overlay::core::fill_rule::FillRule;
 #[cfg(feature = "union")]
 use i_overlay::float::simplify::SimplifyShape;
 
+use super::groups::Trees;
 use super::outline::{Component, OutlineError, Turns, WRAPPED};
 use crate::axis::{Accuracy, Curve, MedialAxis, Side, Site, SiteKind};
 use crate::check::Name;
@@ -47,7 +50,8 @@ pub enum ReconstructError {
 
 /// The polygons that a complete exact axis is that of, in the order and the direction in which they were
 /// given: for each polygon its rings, for each ring its corners, from the first one of the input that is
-/// left.
+/// left. Where what was given were no polygons, as a hole outside or an island in a hole, each outer ring
+/// has the holes that are its own.
 ///
 /// ```
 /// use medial::domain::{Domain, Options};
@@ -73,7 +77,7 @@ pub fn polygons_of(axis: &MedialAxis) -> Result<Vec<Vec<Vec<Point>>>, Reconstruc
     let mut edges: Vec<Site> = Vec::with_capacity(axis.sites().len());
     edges.extend(axis.sites().in_order().filter(|site| site.kind == SiteKind::Edge));
     edges.sort_by_key(|e| (e.polygon, e.ring, e.index, e.part));
-    let mut polygons: Vec<Vec<Vec<Point>>> = Vec::new();
+    let mut rings: Vec<Ring> = Vec::new();
     for ring in edges.chunk_by(|e, f| (e.polygon, e.ring) == (f.polygon, f.ring)) {
         // Edges have the interior on their left, whichever way the ring was given.
         let next = |k: usize| &ring[if k + 1 < ring.len() { k + 1 } else { 0 }];
@@ -89,26 +93,84 @@ pub fn polygons_of(axis: &MedialAxis) -> Result<Vec<Vec<Vec<Point>>>, Reconstruc
             let Site { kind, polygon, ring, index, part, .. } = *edge;
             return Err(ReconstructError::Open { name: Name { kind, polygon, ring, index, part } });
         };
-        let (polygon, number) = (ring[0].polygon as usize, ring[0].ring as usize);
-        if polygons.len() <= polygon {
-            polygons.resize(polygon + 1, Vec::new());
-        }
-        if polygons[polygon].len() <= number {
-            polygons[polygon].resize(number + 1, Vec::new());
-        }
         // Pieces of an edge that another ring touches begin at no corner of this ring.
         let is_corner = |k: &usize| {
             let (start, end) = ends(&ring[*k], way);
             ring[*k].part == 0 || orient2d(ends(last(*k), way).0, start, end) != 0.0
         };
-        let corners = &mut polygons[polygon][number];
-        corners.reserve(ring.len());
+        let mut corners = Vec::with_capacity(ring.len());
         corners.extend((0..ring.len()).filter(is_corner).map(|k| ends(&ring[k], way).0));
+        let is_outer = is_left_turning(&corners) == way;
+        rings.push(Ring { name: (ring[0].polygon, ring[0].ring), corners, is_outer });
     }
-    // Holes without area, and polygons that were empty, have no edges.
-    polygons.iter_mut().for_each(|rings| rings.retain(|ring| !ring.is_empty()));
-    polygons.retain(|rings| !rings.is_empty());
-    Ok(polygons)
+    Ok(grouped(axis, rings))
+}
+
+/// A ring of an axis, as it was given.
+struct Ring {
+    /// The polygon and the number in it.
+    name: (u32, u32),
+    corners: Vec<Point>,
+    /// Whether the inside of the shape is inside of it.
+    is_outer: bool,
+}
+
+/// Whether a ring runs around its inside counterclockwise.
+fn is_left_turning(corners: &[Point]) -> bool {
+    let n = corners.len();
+    let least = (0..n).min_by(|&a, &b| corners[a].lexicographic(corners[b])).unwrap_or(0);
+    let turn = orient2d(corners[(least + n - 1) % n], corners[least], corners[(least + 1) % n]);
+    if turn == 0.0 { signed_area(corners) > 0.0 } else { turn > 0.0 }
+}
+
+/// The polygons that rings were given in, if each is an outer ring with its own holes; else each outer ring
+/// with the holes that belong to it.
+///
+/// Rings that govern one path belong together, and so do those that others join.
+fn grouped(axis: &MedialAxis, mut rings: Vec<Ring>) -> Vec<Vec<Vec<Point>>> {
+    let is_first = |k: usize| k == 0 || rings[k - 1].name.0 != rings[k].name.0;
+    // Without holes there is nothing to belong to.
+    if (0..rings.len()).all(|k| is_first(k) && rings[k].is_outer) {
+        return rings.into_iter().map(|ring| vec![ring.corners]).collect();
+    }
+    let mut trees = Trees::new(rings.len());
+    let mut ring_of = Vec::with_capacity(axis.sites().len());
+    let mut last = 0;
+    for site in axis.sites() {
+        let name = (site.polygon, site.ring);
+        if rings.get(last).is_none_or(|ring| ring.name != name) {
+            last = rings.partition_point(|ring| ring.name < name);
+        }
+        ring_of.push(last as u32);
+    }
+    for path in axis.paths() {
+        let [left, right] = [path.left, path.right].map(|site| ring_of[site as usize]);
+        if left != right {
+            trees.join(left, right);
+        }
+    }
+    // Which outer ring, and how many, each set has.
+    let roots: Vec<u32> = (0..rings.len() as u32).map(|ring| trees.root(ring)).collect();
+    let is_given = rings.chunk_by(|a, b| a.name.0 == b.name.0).try_fold(0, |start, group| {
+        let is_whole = group[0].is_outer && !group[1..].iter().any(|ring| ring.is_outer);
+        let end = start + group.len();
+        (is_whole && roots[start..end].iter().all(|root| *root == roots[start])).then_some(end)
+    });
+    let key = |k: usize| if is_given.is_some() { rings[k].name.0 } else { roots[k] };
+    let mut place = BTreeMap::new();
+    let mut polygons: Vec<Vec<Vec<Point>>> = Vec::new();
+    let keys: Vec<u32> = (0..rings.len()).map(key).collect();
+    for (key, ring) in keys.into_iter().zip(&mut rings) {
+        let polygon = *place.entry(key).or_insert(polygons.len());
+        if polygon == polygons.len() {
+            polygons.push(Vec::new());
+        }
+        // The outer ring comes first.
+        let rings = &mut polygons[polygon];
+        let at = if ring.is_outer && is_given.is_none() { 0 } else { rings.len() };
+        rings.insert(at, std::mem::take(&mut ring.corners));
+    }
+    polygons
 }
 
 /// A disk of an axis.

@@ -197,7 +197,7 @@ impl<'a> DelaunayDual<'a> {
             };
             let samples = Samples::of_walks(domain, walks, spacing, &whole)?;
             watch.check_now()?;
-            let crowded = match triangulated(&samples) {
+            let crowded = match triangulated(&samples, watch)? {
                 Ok(graph) => match samples.merged(domain, &graph.0) {
                     merged if merged.is_empty() => {
                         let spacing = match whole.is_empty() {
@@ -252,7 +252,7 @@ impl<'a> DelaunayDual<'a> {
         }
         watch.check_now()?;
         let source = Source::Mask(mask, Box::new(cracks));
-        let graph = graph_of(&samples, &plane)?;
+        let graph = graph_of(&samples, &plane, &watch)?;
         Self::of(source, None, samples, plane, graph, spacing, &watch)
     }
 
@@ -268,8 +268,9 @@ impl<'a> DelaunayDual<'a> {
         let Self { source, frame, mut samples, plane, triangles, dual, disks, spacing, .. } = self;
         let moved = smooth::retract(&mut samples, &triangles, &dual, &disks, &left);
         let spacing = spacing + moved * plane.unit();
-        let graph = graph_of(&samples, &plane)?;
-        Self::of(source, frame, samples, plane, graph, spacing, &Watch::new(options))
+        let watch = Watch::new(options);
+        let graph = graph_of(&samples, &plane, &watch)?;
+        Self::of(source, frame, samples, plane, graph, spacing, &watch)
     }
 
     fn of(
@@ -429,24 +430,33 @@ impl<'a> DelaunayDual<'a> {
 
 /// The triangulation of samples in which neighbours are joined, and how many are not of themselves; or samples that
 /// are in the way of one another.
-fn triangulated(samples: &Samples) -> Result<(Delaunay, u32), [u32; 4]> {
-    let mut triangles = Delaunay::new(&samples.points).ok_or([0; 4])?;
+fn triangulated(
+    samples: &Samples,
+    watch: &Watch<'_>,
+) -> Result<Result<(Delaunay, u32), [u32; 4]>, EngineError> {
+    let triangles = Delaunay::new_unless(&samples.points, || watch.is_over());
+    watch.check_now()?;
+    let Some(mut triangles) = triangles else { return Ok(Err([0; 4])) };
     let vertex = |sample: u32| triangles.vertex_of(sample);
     let pairs: Vec<(u32, u32)> = samples.pairs().map(|(a, b)| (vertex(a), vertex(b))).collect();
-    match triangles.constrain(pairs) {
+    Ok(match triangles.constrain(pairs) {
         Ok(n_missing) => Ok((triangles, n_missing)),
         Err(Blocked { pair: [a, b], by: [c, d] }) => {
             Err([a, b, c, d].map(|vertex| triangles.point_of(vertex)))
         }
-    }
+    })
 }
 
 /// The triangulation of samples in a plane.
-fn graph_of(samples: &Samples, plane: &Plane) -> Result<(Delaunay, u32), EngineError> {
+fn graph_of(
+    samples: &Samples,
+    plane: &Plane,
+    watch: &Watch<'_>,
+) -> Result<(Delaunay, u32), EngineError> {
     if samples.len() == 0 {
         return Ok((Delaunay::default(), 0));
     }
-    triangulated(samples).map_err(|crowded| {
+    triangulated(samples, watch)?.map_err(|crowded| {
         let place = plane.place(samples.points[crowded[0] as usize]);
         EngineError::Crowded { place }
     })

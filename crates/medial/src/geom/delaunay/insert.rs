@@ -13,7 +13,11 @@ pub(super) struct Inserted {
 
 /// Inserts points in their order, which becomes that of the vertices; `order` tells which points they are. `None` if
 /// all of them lie on one line.
-pub(super) fn insert_all(mut sites: Sites, mut order: Vec<u32>) -> Option<Inserted> {
+pub(super) fn insert_all(
+    mut sites: Sites,
+    mut order: Vec<u32>,
+    is_over: &mut dyn FnMut() -> bool,
+) -> Option<Inserted> {
     let n = sites.len();
     // The first point that is another one, and the first one off the line of both.
     let second = (1..n).find(|&k| !sites.is_same(0, k))?;
@@ -26,6 +30,9 @@ pub(super) fn insert_all(mut sites: Sites, mut order: Vec<u32>) -> Option<Insert
     let mut vertex_of = vec![0; order.len()];
     let mut point_of: Vec<u32> = Vec::with_capacity(order.len());
     for (k, &point) in (0..).zip(&order) {
+        if is_over() {
+            return None;
+        }
         let vertex = if k < 3 { k } else { insertion.insert(k) };
         vertex_of[point as usize] = vertex;
         match point_of.get_mut(vertex as usize) {

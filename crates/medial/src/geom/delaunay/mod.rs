@@ -71,6 +71,14 @@ impl Delaunay {
     /// too many for 32-bit numbers.
     #[must_use]
     pub fn new(points: &[Point]) -> Option<Self> {
+        Self::new_unless(points, || false)
+    }
+
+    /// The same, unless it is to stop, which is asked before each point.
+    pub(crate) fn new_unless(
+        points: &[Point],
+        mut is_over: impl FnMut() -> bool,
+    ) -> Option<Self> {
         /// Each vertex has three edges with four quarters each.
         const MOST: usize = (u32::MAX / 16) as usize;
         if points.len() < 3 || points.len() > MOST {
@@ -78,7 +86,7 @@ impl Delaunay {
         }
         let order = insertion_order(points);
         let sites = Sites::new(points, &order);
-        let Inserted { sites, edges, vertex_of, point_of } = insert::insert_all(sites, order)?;
+        let Inserted { sites, edges, vertex_of, point_of } = insert::insert_all(sites, order, &mut is_over)?;
         let (out, faces, kept) = (Vec::new(), Vec::new(), Vec::new());
         let mut triangulation =
             Self { sites, edges, vertex_of, point_of, out, faces, n_faces: 0, kept };
