@@ -9,7 +9,7 @@ use medial::domain::Domain;
 use medial::engine::{DelaunayDual, DualKind, DualNode, DualPruning, Options, path_tracing};
 use medial::geom::Point;
 use medial::raster::{Grid, Mask, default_cell, outline, topology};
-use support::random::{Family, Ground, Random, large_shape};
+use support::random::{Random, random_domains};
 use support::shapes;
 
 /// Options with so many samples along the longer side of the box.
@@ -46,18 +46,6 @@ fn the_axes_of_every_fixture_have_no_defect_whatever_the_spacing() {
     });
     let all: Vec<String> = all.collect();
     assert!(all.is_empty(), "{} faults\n{}", all.len(), all.join("\n"));
-}
-
-/// Random domains with holes.
-fn random_domains(n: u64) -> impl Iterator<Item = (u64, Domain)> {
-    (1..=n).filter_map(|seed| {
-        let mut random = Random(seed);
-        let family = [Family::Tangle, Family::Holes, Family::Squares][seed as usize % 3];
-        let ground = [Ground::Square, Ground::Grid(20)][seed as usize % 2];
-        let polygons = large_shape(&mut random, family, ground, 40);
-        let options = medial::domain::Options { regroup: true, ..Default::default() };
-        Domain::from_polygons(&polygons, &options).ok().map(|domain| (seed, domain))
-    })
 }
 
 #[test]

@@ -17,7 +17,7 @@ use medial::engine::{
 };
 use medial::geom::Point;
 use medial::raster::{Grid, Mask, topology};
-use support::random::{Family, Ground, Random, large_shape};
+use support::random::{Random, random_domains};
 use support::shapes;
 
 fn cells(cell: f64) -> Options<'static> {
@@ -158,18 +158,6 @@ fn every_shape_gives_an_axis() {
         }
     }
     assert!(judged >= 20, "{judged}");
-}
-
-/// Random domains with holes.
-fn random_domains(n: u64) -> impl Iterator<Item = (u64, Domain)> {
-    (1..=n).filter_map(|seed| {
-        let mut random = Random(seed);
-        let family = [Family::Tangle, Family::Holes, Family::Squares][seed as usize % 3];
-        let ground = [Ground::Square, Ground::Grid(20)][seed as usize % 2];
-        let polygons = large_shape(&mut random, family, ground, 40);
-        let options = medial::domain::Options { regroup: true, ..Default::default() };
-        Domain::from_polygons(&polygons, &options).ok().map(|domain| (seed, domain))
-    })
 }
 
 #[test]

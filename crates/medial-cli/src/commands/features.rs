@@ -52,9 +52,7 @@ struct Outcome<R> {
 impl Run {
     /// A run that begins now; fails if the files beside its result cannot be written.
     pub fn new(common: &'static Common) -> Result<Self, Failure> {
-        let create = |path: &Option<PathBuf>| {
-            path.as_deref().map(Output::beside).transpose()
-        };
+        let create = |path: &Option<PathBuf>| path.as_deref().map(Output::beside).transpose();
         Ok(Self {
             common,
             start: Instant::now(),

@@ -1,5 +1,6 @@
 //! Random numbers and random shapes from a seed.
 
+use medial::domain::Domain;
 use medial::geom::Point;
 
 use super::shapes::Polygons;
@@ -231,4 +232,16 @@ fn hole(random: &mut Random, ground: Ground, n: u64) -> Vec<Point> {
 fn cross(a: Point, b: Point, c: Point, d: Point) -> bool {
     let side = |p: Point, q: Point, r: Point| medial::geom::orient2d(p, q, r);
     side(a, b, c) * side(a, b, d) < 0.0 && side(c, d, a) * side(c, d, b) < 0.0
+}
+
+/// Domains of some forty edges with holes and touches, of two kinds of ground, with their seeds.
+pub fn random_domains(n: u64) -> impl Iterator<Item = (u64, Domain)> {
+    (1..=n).filter_map(|seed| {
+        let mut random = Random(seed);
+        let family = [Family::Tangle, Family::Holes, Family::Squares][seed as usize % 3];
+        let ground = [Ground::Square, Ground::Grid(20)][seed as usize % 2];
+        let polygons = large_shape(&mut random, family, ground, 40);
+        let options = medial::domain::Options { regroup: true, ..Default::default() };
+        Domain::from_polygons(&polygons, &options).ok().map(|domain| (seed, domain))
+    })
 }

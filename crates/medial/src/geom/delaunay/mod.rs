@@ -75,10 +75,7 @@ impl Delaunay {
     }
 
     /// The same, unless it is to stop, which is asked before each point.
-    pub(crate) fn new_unless(
-        points: &[Point],
-        mut is_over: impl FnMut() -> bool,
-    ) -> Option<Self> {
+    pub(crate) fn new_unless(points: &[Point], mut is_over: impl FnMut() -> bool) -> Option<Self> {
         /// Each vertex has three edges with four quarters each.
         const MOST: usize = (u32::MAX / 16) as usize;
         if points.len() < 3 || points.len() > MOST {
@@ -86,7 +83,8 @@ impl Delaunay {
         }
         let order = insertion_order(points);
         let sites = Sites::new(points, &order);
-        let Inserted { sites, edges, vertex_of, point_of } = insert::insert_all(sites, order, &mut is_over)?;
+        let Inserted { sites, edges, vertex_of, point_of } =
+            insert::insert_all(sites, order, &mut is_over)?;
         let (out, faces, kept) = (Vec::new(), Vec::new(), Vec::new());
         let mut triangulation =
             Self { sites, edges, vertex_of, point_of, out, faces, n_faces: 0, kept };
