@@ -82,6 +82,7 @@ fn modes(field: &Field, filter: &Filter) -> Vec<Mode> {
     if columns == 0 {
         return modes;
     }
+    let planes = Planes::new(field);
     let rows = Mutex::new(modes.chunks_exact_mut(columns).enumerate());
     let work = || {
         loop {
@@ -89,7 +90,8 @@ fn modes(field: &Field, filter: &Filter) -> Vec<Mode> {
             let Some((y, row)) = next else { break };
             for (x, mode) in row.iter_mut().enumerate() {
                 if field.is_known(y * columns + x) {
-                    *mode = mode_of(field, filter, x, y);
+                    let value = field.values()[y * columns + x];
+                    *mode = planes.mode_of(Mode { place: [x as f32, y as f32], value }, filter);
                 }
             }
         }
@@ -103,46 +105,107 @@ fn modes(field: &Field, filter: &Filter) -> Vec<Mode> {
     modes
 }
 
-/// Moves from a pixel to where it rests.
-fn mode_of(field: &Field, filter: &Filter, x: usize, y: usize) -> Mode {
-    let (columns, rows) = (field.grid().columns as usize, field.grid().rows as usize);
-    let Filter { spatial, range, .. } = *filter;
-    let values = field.values();
-    let mut mode = Mode { place: [x as f32, y as f32], value: values[y * columns + x] };
-    for _ in 0..MOST_STEPS {
-        let [px, py] = mode.place;
-        let low = |at: f32| (at - spatial).ceil().max(0.0) as usize;
-        let high = |at: f32, n: usize| n.min((at + spatial).floor() as usize + 1);
-        let (mut n, mut place, mut value) = (0.0_f32, [0.0_f32; 2], [0.0_f32; 3]);
-        for v in low(py)..high(py, rows) {
-            let dy = v as f32 - py;
-            // As far as the disk goes in this row.
-            let half = (spatial * spatial - dy * dy).max(0.0).sqrt();
-            let from = (px - half).ceil().max(0.0) as usize;
-            let to = columns.min((px + half).floor() as usize + 1);
-            for (u, &other) in (from..to).zip(&values[v * columns + from..]) {
-                // Not so of what is no number.
-                if squared(other, mode.value) <= range * range {
-                    n += 1.0;
-                    place[0] += u as f32 - px;
-                    place[1] += dy;
-                    value.iter_mut().zip(other).for_each(|(sum, number)| *sum += number);
+/// Pixels that are looked at together.
+const LANES: usize = 8;
+
+/// Stands for no number: farther from all values than any radius, and 0 times it is 0.
+const FAR: f32 = 1e18;
+
+/// The values of a field, each of the three by itself, with room behind each row.
+struct Planes {
+    columns: usize,
+    rows: usize,
+    /// From one row to the next.
+    stride: usize,
+    values: [Vec<f32>; 3],
+}
+
+/// Sums over pixels within both radii, lane by lane.
+#[derive(Clone, Copy, Default)]
+struct Sums {
+    n: [f32; LANES],
+    x: [f32; LANES],
+    y: [f32; LANES],
+    values: [[f32; LANES]; 3],
+}
+
+impl Planes {
+    fn new(field: &Field) -> Self {
+        let (columns, rows) = (field.grid().columns as usize, field.grid().rows as usize);
+        let stride = columns + LANES;
+        let plane = |axis: usize| {
+            let mut plane = vec![FAR; rows * stride];
+            let given = field.values().chunks_exact(columns);
+            for (own, row) in plane.chunks_exact_mut(stride).zip(given) {
+                for (own, value) in own.iter_mut().zip(row).filter(|(_, v)| v[axis].is_finite()) {
+                    *own = value[axis];
                 }
             }
+            plane
+        };
+        Self { columns, rows, stride, values: [0, 1, 2].map(plane) }
+    }
+
+    /// Moves from a pixel to where it rests.
+    fn mode_of(&self, mut mode: Mode, filter: &Filter) -> Mode {
+        let Filter { spatial, range, .. } = *filter;
+        for _ in 0..MOST_STEPS {
+            let [px, py] = mode.place;
+            let top = (py - spatial).ceil().max(0.0) as usize;
+            let bottom = self.rows.min((py + spatial).floor() as usize + 1);
+            let mut sums = Sums::default();
+            for v in top..bottom {
+                let dy = v as f32 - py;
+                // As far as the disk goes in this row.
+                let half = (spatial * spatial - dy * dy).max(0.0).sqrt();
+                let from = (px - half).ceil().max(0.0) as usize;
+                let to = self.columns.min((px + half).floor() as usize + 1);
+                for first in (from..to).step_by(LANES) {
+                    let at = v * self.stride + first;
+                    let near = self.values.each_ref().map(|plane| &plane[at..at + LANES]);
+                    let offset = [first as f32 - px, dy];
+                    sums.add(near, &mode, offset, (to - first).min(LANES), range * range);
+                }
+            }
+            let n = total(&sums.n);
+            if n == 0.0 {
+                break;
+            }
+            let step = [&sums.x, &sums.y].map(|sum| total(sum) / n);
+            let mean = sums.values.each_ref().map(|sum| total(sum) / n);
+            let moved = (step[0] * step[0] + step[1] * step[1]) / (spatial * spatial)
+                + squared(mean, mode.value) / (range * range);
+            mode = Mode { place: [px + step[0], py + step[1]], value: mean };
+            if moved < REST {
+                break;
+            }
         }
-        if n == 0.0 {
-            break;
-        }
-        let step = place.map(|sum| sum / n);
-        let mean = value.map(|sum| sum / n);
-        let moved = (step[0] * step[0] + step[1] * step[1]) / (spatial * spatial)
-            + squared(mean, mode.value) / (range * range);
-        mode = Mode { place: [px + step[0], py + step[1]], value: mean };
-        if moved < REST {
-            break;
+        mode
+    }
+}
+
+impl Sums {
+    /// Adds the first pixels of a run, those near enough to a value, the first one so far from the place.
+    #[inline]
+    fn add(&mut self, near: [&[f32]; 3], mode: &Mode, offset: [f32; 2], count: usize, range2: f32) {
+        let [a, b, c] = near.map(|plane| <&[f32; LANES]>::try_from(plane).unwrap_or(&[FAR; LANES]));
+        let [p, q, r] = mode.value;
+        for lane in 0..LANES {
+            let (da, db, dc) = (a[lane] - p, b[lane] - q, c[lane] - r);
+            let is_near = (da * da + db * db + dc * dc <= range2) & (lane < count);
+            let weight = if is_near { 1.0 } else { 0.0 };
+            self.n[lane] += weight;
+            self.x[lane] += weight * (offset[0] + lane as f32);
+            self.y[lane] += weight * offset[1];
+            self.values[0][lane] += weight * a[lane];
+            self.values[1][lane] += weight * b[lane];
+            self.values[2][lane] += weight * c[lane];
         }
     }
-    mode
+}
+
+fn total(lanes: &[f32; LANES]) -> f32 {
+    lanes.iter().sum()
 }
 
 #[cfg(test)]
