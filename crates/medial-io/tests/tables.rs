@@ -330,6 +330,82 @@ fn layers_of_a_geopackage_are_named_where_there_are_several() {
     assert_eq!(second.geometry, "without a geometry");
 }
 
+/// The folder of a written layer of the three polygons, one file of which is cut off or gone.
+fn cut(format: Format, extension: &str, keep: impl Fn(&[u8]) -> usize) -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    let path = file(&folder, format);
+    write(format, &path, POLYGONS, None).unwrap();
+    let path = path.with_extension(extension);
+    let bytes = std::fs::read(&path).unwrap();
+    std::fs::write(path, &bytes[..keep(&bytes)]).unwrap();
+    folder
+}
+
+#[test]
+fn an_index_that_is_cut_off_loses_no_shapes() {
+    for keep in [50, 100, 108, 113] {
+        let folder = cut(Format::Shp, "shx", |_| keep);
+        let layer = read(Format::Shp, &file(&folder, Format::Shp));
+        let expected = format!("has {keep} of 124 bytes");
+        assert!(layer.warnings.iter().any(|warning| warning.contains(&expected)), "{keep}");
+        assert_eq!(layer.map(Result::unwrap).count(), 3, "{keep}");
+    }
+}
+
+#[test]
+fn shapes_without_values_are_noted() {
+    let folder = cut(Format::Shp, "dbf", |bytes| bytes.len() - 20);
+    let found: Vec<Feature> =
+        read(Format::Shp, &file(&folder, Format::Shp)).map(Result::unwrap).collect();
+    let codes = |k: usize| found[k].notes.iter().map(|note| note.code).collect::<Vec<_>>();
+    assert_eq!((codes(1), codes(2)), (vec![], vec!["values_missing"]));
+    // A table that says that it has fewer rows.
+    let path = file(&folder, Format::Shp).with_extension("dbf");
+    let mut bytes = std::fs::read(&path).unwrap();
+    bytes[4] = 1;
+    std::fs::write(&path, bytes).unwrap();
+    let found = read(Format::Shp, &file(&folder, Format::Shp)).map(Result::unwrap);
+    assert_eq!(found.map(|feature| feature.notes.len()).collect::<Vec<_>>(), [0, 1, 1]);
+}
+
+#[test]
+fn shapes_that_break_off_between_two_of_them_are_missed() {
+    // Behind the first record, and within the second one.
+    for more in [0, 4, 20] {
+        let folder = cut(Format::Shp, "shp", |bytes| {
+            let words = u32::from_be_bytes(*bytes[104..].first_chunk().unwrap()) as usize;
+            100 + 8 + 2 * words + more
+        });
+        let path = file(&folder, Format::Shp);
+        std::fs::remove_file(path.with_extension("shx")).unwrap();
+        let found: Vec<_> = read(Format::Shp, &path).collect();
+        assert_eq!(found.len(), 2, "{more}");
+        let error = &found[1].as_ref().unwrap_err().error;
+        assert!(matches!(error, Error::Interrupted { .. }), "{error}");
+    }
+}
+
+#[test]
+fn a_flatgeobuf_that_breaks_off_between_two_features_is_short_of_some() {
+    let whole = cut(Format::Fgb, "fgb", <[u8]>::len);
+    let bytes = std::fs::read(file(&whole, Format::Fgb)).unwrap();
+    let size = |at: usize| u32::from_le_bytes(*bytes[at..].first_chunk().unwrap()) as usize;
+    // Behind the header is the index: three leaves and a root of 40 bytes each.
+    let mut starts = Vec::new();
+    let mut at = 8 + 4 + size(8) + 4 * 40;
+    while at < bytes.len() {
+        starts.push(at);
+        at += 4 + size(at);
+    }
+    assert_eq!(starts.len(), 3);
+    let folder = cut(Format::Fgb, "fgb", |_| starts[2]);
+    let found: Vec<_> = read(Format::Fgb, &file(&folder, Format::Fgb)).collect();
+    assert_eq!(found.len(), 3);
+    let error = &found[2].as_ref().unwrap_err().error;
+    assert_eq!(error.to_string(), "the file ends after 2 of 3 features");
+    assert!(matches!(error, Error::Interrupted { .. }));
+}
+
 /// A small generator of numbers, the same on every run.
 struct Dice(u64);
 

@@ -56,7 +56,7 @@ pub fn open(path: &Path) -> Result<Layer<'static>, Error> {
     let crs = reference(&header);
     source.seek(SeekFrom::Current(index)).map_err(failed)?;
     let len = usize::try_from(count).ok().filter(|&count| count > 0);
-    let features = Features { source, described, index: 0, is_over: false };
+    let features = Features { source, described, index: 0, expected: count, is_over: false };
     Ok(Layer { crs, len, ..Layer::of_parts(features) })
 }
 
@@ -122,6 +122,8 @@ struct Features {
     source: BufReader<File>,
     described: Arc<Described>,
     index: usize,
+    /// How many there are by the header, 0 if it does not say.
+    expected: u64,
     is_over: bool,
 }
 
@@ -134,7 +136,15 @@ impl Iterator for Features {
         }
         let index = self.index;
         let buffer = match message(&mut self.source, u64::MAX) {
-            Ok(buffer) => buffer?,
+            Ok(Some(buffer)) => buffer,
+            Ok(None) => {
+                self.is_over = true;
+                let n = self.expected;
+                let why = format!("the file ends after {index} of {n} features");
+                let source = io::Error::new(io::ErrorKind::UnexpectedEof, why);
+                let is_short = (index as u64) < n;
+                return is_short.then(|| Part::broken(index, Error::Interrupted { source }));
+            }
             Err(source) => {
                 self.is_over = true;
                 return Some(Part::broken(index, Error::Interrupted { source }));
