@@ -30,9 +30,11 @@ pub fn open(path: &Path) -> Result<Layer<'static>, Error> {
     let (places, len) = index.unzip();
     let table = match beside(path, "dbf") {
         Some(found) => {
-            let encoding = beside(path, "cpg").and_then(|path| std::fs::read_to_string(path).ok());
+            let encoding = beside(path, "cpg").and_then(|path| std::fs::read(path).ok());
+            let encoding = encoding.as_deref().map(String::from_utf8_lossy);
             let file = BufReader::new(File::open(found).map_err(failed)?);
-            Some(dbf::Reader::new(file, encoding.as_deref()).map_err(|why| Error::File { why })?)
+            let table = dbf::Reader::new(file, encoding.as_deref(), &mut warnings);
+            Some(table.map_err(|why| Error::File { why })?)
         }
         None => None,
     };
@@ -76,12 +78,12 @@ fn beside(path: &Path, extension: &str) -> Option<PathBuf> {
 /// The records of a shapefile.
 struct Shapes {
     shapes: BufReader<File>,
-    places: Option<BufReader<File>>,
-    table: Option<dbf::Reader<BufReader<File>>>,
     /// Where the next record begins, if there is no index.
     at: u64,
     /// Where the last record ends by the header.
     end: u64,
+    places: Option<BufReader<File>>,
+    table: Option<dbf::Reader<BufReader<File>>>,
     /// Records so far, with those that are deleted.
     n_records: u64,
     index: usize,
@@ -181,9 +183,9 @@ impl Shapes {
                 None => Err(io::Error::new(io::ErrorKind::UnexpectedEof, why)),
             };
         }
+        self.at += 8 + size;
         Ok(Some(Ok(content)))
     }
-        self.at += 8 + size;
 }
 
 /// A record as a feature.
