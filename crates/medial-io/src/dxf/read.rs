@@ -6,7 +6,7 @@
 //! of the layer too, with the reason. Only model space is read, seen from above. What nobody sees, on layers
 //! that are off or frozen and entities that are invisible, is passed over, unless its layer is asked for.
 
-use super::chain::chains;
+use super::chain::{Chain, chains};
 use super::entity::{Drawn, Entity, Fields};
 use super::groups::{Group, groups};
 use super::nest::nests;
@@ -255,6 +255,7 @@ struct Line {
 struct Outline<'a> {
     lines: Vec<&'a Line>,
     contour: Contour,
+    n_repeats: usize,
     gap: f64,
 }
 
@@ -438,14 +439,16 @@ impl Drawing {
                 outlines.push(Outline {
                     lines: vec![line],
                     contour: line.contour.clone(),
+                    n_repeats: 0,
                     gap: 0.0,
                 });
             }
             let lines: Vec<Contour> = open.iter().map(|k| self.open[*k].contour.clone()).collect();
             for chain in chains(&lines) {
                 let lines: Vec<&Line> = chain.parts.iter().map(|k| &self.open[open[*k]]).collect();
-                let outline = Outline { lines, contour: chain.contour, gap: chain.gap };
-                if chain.closed {
+                let Chain { contour, n_repeats, gap, closed, .. } = chain;
+                let outline = Outline { lines, contour, n_repeats, gap };
+                if closed {
                     outlines.push(outline);
                 } else {
                     self.items.extend(unclosed(&outline));
@@ -467,6 +470,13 @@ impl Drawing {
                 if gap > 0.0 {
                     let text = format!("ends of lines that are up to {gap:e} apart are joined");
                     item.notes.push(Note { code: "gap_closed", text });
+                }
+                let n_repeats: usize = rings().map(|ring| ring.n_repeats).sum();
+                if n_repeats > 0 {
+                    let text = format!(
+                        "lines that are drawn more than once are taken once: {n_repeats} are left out"
+                    );
+                    item.notes.push(Note { code: "duplicate_line", text });
                 }
                 self.items.push((first, item));
             }

@@ -74,6 +74,18 @@ fn lines_and_arcs_close_and_lie_in_one_another() {
 }
 
 #[test]
+fn an_outline_with_a_line_drawn_twice_is_one() {
+    let read = features(
+        "0=LINE 8=0 10=0 20=0 11=5 21=0 0=LINE 8=0 10=0 20=0 11=5 21=0 \
+         0=LINE 8=0 10=5 20=0 11=5 21=5 0=LINE 8=0 10=5 20=5 11=0 21=0",
+    );
+    let [Ok(triangle)] = &read[..] else { panic!("{read:?}") };
+    near(area(triangle), 12.5);
+    assert_eq!(triangle.notes[0].code, "duplicate_line");
+    assert!(triangle.notes[0].text.ends_with(": 1 are left out"));
+}
+
+#[test]
 fn what_is_open_or_no_outline_is_told() {
     let read = features(
         "0=LINE 8=a 10=0 20=0 11=1 21=0 0=LINE 8=a 10=1 20=0 11=1 21=1 0=TEXT 8=t 1=Hi \
