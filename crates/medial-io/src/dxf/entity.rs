@@ -22,8 +22,8 @@ pub(super) enum Drawn {
     Closed(Contour),
     /// A line, which may be closed by others.
     Open(Contour),
-    /// What is filled.
-    Filled(Vec<Contour>),
+    /// What is filled, by the paths that bound it.
+    Filled(Vec<Contour>, hatch::Style),
     /// Nothing that could bound a polygon.
     Other,
 }
@@ -144,7 +144,8 @@ impl<'a> Entity<'a> {
             "HATCH" | "MPOLYGON" => {
                 let plane = fields.plane(30)?;
                 let paths = hatch::paths(&fields)?;
-                Ok(Drawn::Filled(paths.iter().map(|path| plane.contour(path)).collect()))
+                let paths = paths.iter().map(|path| plane.contour(path)).collect();
+                Ok(Drawn::Filled(paths, hatch::Style::of(&fields)?))
             }
             _ => Ok(Drawn::Other),
         }

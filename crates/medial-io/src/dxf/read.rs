@@ -9,7 +9,7 @@
 use super::chain::{Chain, chains};
 use super::entity::{Drawn, Entity, Fields};
 use super::groups::{Group, groups};
-use super::nest::nests;
+use super::nest::{Nest, nests};
 use crate::curves::{Affine, Contour, flatten};
 use crate::json::{quoted, whole};
 use crate::{Error, Feature, FeatureError, Json, Layer, Note, Part, ReadOptions};
@@ -251,7 +251,7 @@ struct Line {
     contour: Contour,
 }
 
-/// A closed outline of some lines, and the widest gap between them.
+/// A closed outline of some lines, how many repeat them, and the widest gap between them.
 struct Outline<'a> {
     lines: Vec<&'a Line>,
     contour: Contour,
@@ -336,11 +336,11 @@ impl Drawing {
             Ok(Drawn::Open(contour)) => {
                 self.open.push(Line { order, source, contour: to_plane(&contour) });
             }
-            Ok(Drawn::Filled(contours)) => {
+            Ok(Drawn::Filled(contours, style)) => {
                 let contours: Vec<Contour> = contours.iter().map(to_plane).collect();
-                let nests = nests(&contours.iter().collect::<Vec<_>>());
+                let nests = style.filled(nests(&contours.iter().collect::<Vec<_>>()));
                 let polygon =
-                    |nest: Vec<usize>| nest.into_iter().map(|k| contours[k].clone()).collect();
+                    |nest: Nest| nest.rings.into_iter().map(|k| contours[k].clone()).collect();
                 let polygons = nests.into_iter().map(polygon).collect();
                 self.items.push((order, Item::of(&source, Some(Ok(polygons)))));
             }
@@ -457,9 +457,9 @@ impl Drawing {
             outlines.sort_by_key(Outline::order);
             for nest in nests(&outlines.iter().map(|outline| &outline.contour).collect::<Vec<_>>())
             {
-                let rings = || nest.iter().map(|k| &outlines[*k]);
+                let rings = || nest.rings.iter().map(|k| &outlines[*k]);
                 let first = rings().map(Outline::order).min().unwrap_or(0);
-                let outer = &outlines[nest[0]];
+                let outer = &outlines[nest.rings[0]];
                 let Some(line) = outer.first() else { continue };
                 let contours = rings().map(|ring| ring.contour.clone()).collect();
                 let mut item = Item::of(&line.source, Some(Ok(vec![contours])));

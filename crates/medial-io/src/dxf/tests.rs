@@ -152,6 +152,19 @@ fn hatches_are_features_of_their_own() {
 }
 
 #[test]
+fn styles_of_hatches_tell_which_paths_are_filled() {
+    let square = |a: u32| {
+        let b = 10 - a;
+        format!("92=2 72=0 73=1 93=4 10={a} 20={a} 10={b} 20={a} 10={b} 20={b} 10={a} 20={b} 97=0 ")
+    };
+    let paths = [0, 1, 2].map(square).concat();
+    for (style, expected) in [(0, 100.0 - 64.0 + 36.0), (1, 100.0 - 64.0), (2, 100.0)] {
+        let read = features(&format!("0=HATCH 8=h 70=1 91=3 {paths} 75={style} 76=1 98=0"));
+        near(area(read[0].as_ref().unwrap()), expected);
+    }
+}
+
+#[test]
 fn what_is_no_drawing_is_refused() {
     let error = |bytes: &[u8]| read(bytes, &ReadOptions::default()).err().unwrap().to_string();
     assert_eq!(error(b" \n"), "the input is empty");
