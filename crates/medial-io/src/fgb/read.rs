@@ -1,3 +1,4 @@
+use crate::table::told_apart;
 use crate::{Crs, Error, Feature, FeatureError, Json, Layer, Part, attribute};
 use flatgeobuf::{
     ColumnType, Geometry, GeometryType, Header, size_prefixed_root_as_feature,
@@ -45,9 +46,12 @@ pub fn open(path: &Path) -> Result<Layer<'static>, Error> {
     let buffer = buffer.ok_or_else(|| wrong("it has no header"))?;
     let header = size_prefixed_root_as_header(&buffer)
         .map_err(|error| wrong(&format!("its header is malformed: {}", plain(&error))))?;
-    let columns = header.columns().map_or_else(Vec::new, |columns| {
+    let columns: Vec<(String, ColumnType)> = header.columns().map_or_else(Vec::new, |columns| {
         columns.iter().map(|column| (column.name().to_owned(), column.type_())).collect()
     });
+    let mut warnings = Vec::new();
+    let (names, kinds): (Vec<String>, Vec<ColumnType>) = columns.into_iter().unzip();
+    let columns = told_apart(names, &mut warnings).into_iter().zip(kinds).collect();
     let described = Arc::new(Described { columns, kind: header.geometry_type() });
     let count = header.features_count();
     let index = index_bytes(count, header.index_node_size());
@@ -57,7 +61,7 @@ pub fn open(path: &Path) -> Result<Layer<'static>, Error> {
     source.seek(SeekFrom::Current(index)).map_err(failed)?;
     let len = usize::try_from(count).ok().filter(|&count| count > 0);
     let features = Features { source, described, index: 0, expected: count, is_over: false };
-    Ok(Layer { crs, len, ..Layer::of_parts(features) })
+    Ok(Layer { crs, len, warnings, ..Layer::of_parts(features) })
 }
 
 /// A flatbuffer behind its size, with it; `None` at the end.

@@ -1,6 +1,7 @@
 //! Tables of dBase, as far as shapefiles have them.
 
 use super::encoding::Encoding;
+use crate::table::told_apart;
 use crate::{Json, attribute};
 use std::io::{self, Read};
 
@@ -60,6 +61,10 @@ impl<R: Read> Reader<R> {
                 usize::from(bytes[16]) + if kind == b'C' { 256 * usize::from(decimals) } else { 0 };
             fields.push(Field { name: encoding.decode(name), kind, size, decimals });
             total += size;
+        }
+        let names = fields.iter().map(|field: &Field| field.name.clone()).collect();
+        for (field, name) in fields.iter_mut().zip(told_apart(names, warnings)) {
+            field.name = name;
         }
         if total > usize::from(row) {
             return Err(wrong("its fields are longer than its rows"));
@@ -243,6 +248,12 @@ mod tests {
         assert!(warnings(0x68, None)[0].contains("language driver 104"));
         let both = warnings(0x68, Some("nonsense\n"));
         assert!(both.len() == 2 && both[0].contains("`nonsense`"), "{both:?}");
+    }
+
+    #[test]
+    fn fields_of_one_name_are_told_apart() {
+        let bytes = table(&[("a", b'N', 1, 0), ("a", b'N', 1, 0)], b" 12", 0);
+        assert_eq!(values(&bytes, None), ["a=1", "a_1=2"]);
     }
 
     #[test]
