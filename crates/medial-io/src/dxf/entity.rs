@@ -164,7 +164,8 @@ impl<'a> Entity<'a> {
             // Not the frame of a spline.
             if part.first().is_some_and(|g| g.is(0, "VERTEX")) && vertex.whole_or(70, 0)? & 16 == 0
             {
-                vertices.push((vertex.point(10)?, vertex.real_or(42, 0.0)?));
+                let bulge = vertex.find(42).map(Group::bulge).transpose()?;
+                vertices.push((vertex.point(10)?, bulge.unwrap_or(0.0)));
             }
         }
         // Vertices in space have no plane of their own.
@@ -185,7 +186,7 @@ fn lightweight(fields: &Fields) -> Result<Drawn, Error> {
             }
             42 => {
                 if let Some((_, bulge)) = vertices.last_mut() {
-                    *bulge = group.real()?;
+                    *bulge = group.bulge()?;
                 }
             }
             _ => {}

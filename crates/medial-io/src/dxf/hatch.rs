@@ -109,7 +109,7 @@ impl<'a> Reader<'a> {
         let mut vertices = Vec::new();
         for _ in 0..n {
             let p = self.point(10)?;
-            let bulge = self.maybe(42).map_or(Ok(0.0), Group::real)?;
+            let bulge = self.maybe(42).map_or(Ok(0.0), Group::bulge)?;
             vertices.push((p, bulge));
         }
         Ok(bulges(&vertices, true))

@@ -23,8 +23,8 @@ const DEPTH: usize = 32;
 /// Most entities that are drawn, those of blocks each time.
 const MOST: usize = 1_000_000;
 
-/// Units of length by their number in the header, as far as they have short names.
-pub(super) const UNITS: [(i64, &str); 14] = [
+/// Units of length by their number in the header.
+pub(super) const UNITS: [(i64, &str); 24] = [
     (1, "in"),
     (2, "ft"),
     (3, "mi"),
@@ -39,6 +39,16 @@ pub(super) const UNITS: [(i64, &str); 14] = [
     (12, "nm"),
     (13, "um"),
     (14, "dm"),
+    (15, "dam"),
+    (16, "hm"),
+    (17, "Gm"),
+    (18, "au"),
+    (19, "ly"),
+    (20, "pc"),
+    (21, "us-ft"),
+    (22, "us-in"),
+    (23, "us-yd"),
+    (24, "us-mi"),
 ];
 
 /// Reads the outlines of a drawing.
@@ -76,7 +86,10 @@ pub fn read<'a>(bytes: &[u8], options: &ReadOptions) -> Result<Layer<'a>, Error>
         // Curves are flattened where features are read.
         Part::of_row(item.size(), move || item.feature(index, tolerance))
     });
-    let warnings = drawing_warnings(n_unseen, &unseen);
+    let mut warnings = drawing_warnings(n_unseen, &unseen);
+    warnings.extend(file.unknown_units.map(|number| {
+        format!("its units are not known ($INSUNITS is {number}) and are left out; set them in the drawing")
+    }));
     Ok(Layer { len, warnings, units: file.units, ..Layer::of_parts(features) })
 }
 
@@ -105,6 +118,8 @@ enum Seen {
 /// The parts of a file that are used.
 struct File<'a> {
     units: Option<&'static str>,
+    /// The number of units that are none.
+    unknown_units: Option<i64>,
     /// Layers that are not seen, by their names in capitals.
     unseen: HashMap<String, Seen>,
     blocks: HashMap<String, Block<'a>>,
@@ -124,6 +139,7 @@ impl<'a> File<'a> {
         }
         let mut file = Self {
             units: None,
+            unknown_units: None,
             unseen: HashMap::new(),
             blocks: HashMap::new(),
             entities: Vec::new(),
@@ -156,6 +172,8 @@ impl<'a> File<'a> {
         let variable = groups.iter().position(|group| group.is(9, "$INSUNITS"));
         let number = variable.and_then(|k| groups.get(k + 1)).and_then(|g| g.whole().ok());
         self.units = UNITS.iter().find(|(n, _)| Some(*n) == number).map(|(_, name)| *name);
+        // Without units it is 0.
+        self.unknown_units = number.filter(|number| *number != 0 && self.units.is_none());
     }
 
     fn tables(&mut self, groups: &'a [Group<'a>]) {

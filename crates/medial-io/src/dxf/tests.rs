@@ -165,6 +165,37 @@ fn styles_of_hatches_tell_which_paths_are_filled() {
 }
 
 #[test]
+fn all_units_have_names() {
+    let of = |number: &str| {
+        let text = file("0=CIRCLE 8=a 10=0 20=0 40=1");
+        let text = text.replace("$INSUNITS\n70\n4\n", &format!("$INSUNITS\n70\n{number}\n"));
+        let layer = read(text.as_bytes(), &ReadOptions::default()).unwrap();
+        (layer.units, layer.warnings)
+    };
+    assert_eq!(of("21"), (Some("us-ft"), vec![]));
+    assert_eq!(of("0"), (None, vec![]));
+    let (units, warnings) = of("25");
+    assert!(units.is_none() && warnings[0].contains("$INSUNITS is 25"), "{warnings:?}");
+    assert!(header(Some("us-ft")).contains("$INSUNITS\n70\n21\n9\n$MEASUREMENT\n70\n0\n"));
+}
+
+#[test]
+fn a_bulge_that_is_none_is_refused() {
+    for value in ["inf", "nan", "1e300"] {
+        let read = features(&format!(
+            "0=LWPOLYLINE 8=0 70=1 10=0 20=0 42={value} 10=2 20=0 42=1 \
+             0=POLYLINE 8=1 70=1 0=VERTEX 8=1 10=0 20=0 42={value} 0=VERTEX 8=1 10=1 20=1 0=SEQEND \
+             0=HATCH 8=2 91=1 92=2 72=1 73=1 93=2 10=0 20=0 42={value} 10=1 20=0 42=1 97=0"
+        ));
+        assert_eq!(read.len(), 3, "{value}");
+        for read in read {
+            let error = read.unwrap_err().to_string();
+            assert!(error.contains("group 42: ") && error.contains("is no bulge"), "{error}");
+        }
+    }
+}
+
+#[test]
 fn what_is_no_drawing_is_refused() {
     let error = |bytes: &[u8]| read(bytes, &ReadOptions::default()).err().unwrap().to_string();
     assert_eq!(error(b" \n"), "the input is empty");
