@@ -1,13 +1,14 @@
 //! What gzip has packed [RFC 1952].
 
 use crate::Error;
+use miniz_oxide::inflate::decompress_slice_iter_to_slice;
 use std::borrow::Cow;
 
 /// How packed bytes begin.
 pub(crate) const MAGIC: [u8; 2] = [0x1f, 0x8b];
 
 /// Most bytes that are unpacked; protects the memory against made-up input.
-const MOST: usize = 1 << 30;
+const MOST: usize = 1 << 28;
 
 /// Bytes as they were before they were packed, if they are.
 ///
@@ -17,20 +18,22 @@ pub(crate) fn unpacked(bytes: &[u8]) -> Result<Cow<'_, [u8]>, Error> {
     if !bytes.starts_with(&MAGIC) {
         return Ok(bytes.into());
     }
-    let damaged = || Error::File { why: "its packed content is damaged or cut off".to_owned() };
+    let damaged = || Error::File {
+        why: "its packed content is damaged or cut off; copy it again".to_owned(),
+    };
     let body = body(bytes).ok_or_else(damaged)?;
     let (body, end) = body.split_last_chunk::<8>().ok_or_else(damaged)?;
-    let plain = miniz_oxide::inflate::decompress_to_vec_with_limit(body, MOST).map_err(
-        |error| match error.status {
-            miniz_oxide::inflate::TINFLStatus::HasMoreOutput => {
-                let why = format!("its content is more than {MOST} bytes; unpack and divide it");
-                Error::File { why }
-            }
-            _ => damaged(),
-        },
-    )?;
-    let [sum @ .., _, _, _, _] = *end;
-    if u32::from_le_bytes(sum) != crc32fast::hash(&plain) {
+    let [a, b, c, d, size @ ..] = *end;
+    let size = u32::from_le_bytes(size) as usize;
+    if size > MOST {
+        let why = format!("its content is {size} bytes, more than {MOST}; unpack it");
+        return Err(Error::File { why });
+    }
+    // No more memory than it says, however much there is.
+    let mut plain = vec![0; size];
+    let n = decompress_slice_iter_to_slice(&mut plain, std::iter::once(body), false, true);
+    let sum = u32::from_le_bytes([a, b, c, d]);
+    if n != Ok(size) || sum != crc32fast::hash(&plain) {
         return Err(damaged());
     }
     Ok(plain.into())
@@ -75,6 +78,21 @@ mod tests {
     fn what_was_packed_is_unpacked() {
         assert_eq!(&*unpacked(&packed()).unwrap(), b"<svg/>");
         assert_eq!(&*unpacked(b"<svg/>").unwrap(), b"<svg/>");
+    }
+
+    #[test]
+    fn what_is_larger_than_it_says_or_may_be_is_refused() {
+        let with_size = |size: u32| {
+            let mut packed = packed();
+            let at = packed.len() - 4;
+            packed[at..].copy_from_slice(&size.to_le_bytes());
+            unpacked(&packed).map(|_| ()).map_err(|error| error.to_string())
+        };
+        assert_eq!(with_size(6), Ok(()));
+        for size in [0, 5, 7, 1 << 28] {
+            assert!(with_size(size).is_err_and(|why| why.contains("damaged")), "{size}");
+        }
+        assert!(with_size((1 << 28) + 1).is_err_and(|why| why.ends_with("; unpack it")));
     }
 
     #[test]

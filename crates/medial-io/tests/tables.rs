@@ -204,6 +204,45 @@ fn a_page_of_parquet_that_claims_too_much_is_refused() {
 }
 
 #[test]
+fn columns_of_parquet_with_one_name_are_told() {
+    use parquet::data_type::{ByteArrayType, Int64Type};
+    use parquet::file::writer::SerializedFileWriter;
+    let folder = tempfile::tempdir().unwrap();
+    let path = file(&folder, Format::Parquet);
+    let schema = "message m { required int64 a; required binary geometry; required int64 b; \
+                  required int64 a; }";
+    let schema = parquet::schema::parser::parse_message_type(schema).unwrap();
+    let out = std::fs::File::create(&path).unwrap();
+    let mut writer = SerializedFileWriter::new(out, schema.into(), Default::default()).unwrap();
+    let mut group = writer.next_row_group().unwrap();
+    let mut wkb = vec![1, 3, 0, 0, 0, 1, 0, 0, 0, 4, 0, 0, 0];
+    for number in [0.0_f64, 0.0, 1.0, 0.0, 0.0, 1.0, 0.0, 0.0] {
+        wkb.extend(number.to_le_bytes());
+    }
+    for k in 0..4_i64 {
+        let mut column = group.next_column().unwrap().unwrap();
+        if k == 1 {
+            let values = [wkb.clone().into()];
+            column.typed::<ByteArrayType>().write_batch(&values, None, None).unwrap();
+        } else {
+            column.typed::<Int64Type>().write_batch(&[k], None, None).unwrap();
+        }
+        column.close().unwrap();
+    }
+    group.close().unwrap();
+    writer.close().unwrap();
+    let layer = read(Format::Parquet, &path);
+    let warning =
+        "several columns have one name, `a`; only the last one of each is read: rename the others";
+    assert_eq!(layer.warnings, [warning]);
+    let feature = layer.map(Result::unwrap).next().unwrap();
+    assert!(feature.polygonal);
+    let told: Vec<_> =
+        feature.properties.iter().map(|(name, value)| (name.as_str(), value.get())).collect();
+    assert_eq!(told, [("b", "2"), ("a", "3")]);
+}
+
+#[test]
 fn projjson_passes_through_parquet() {
     let text = r#"{"type":"ProjectedCRS","name":"x","id":{"authority":"EPSG","code":28992}}"#;
     let crs = Crs::of_projjson(serde_json::from_str(text).unwrap());
@@ -328,6 +367,83 @@ fn layers_of_a_geopackage_are_named_where_there_are_several() {
     let second = rows[1].as_ref().unwrap();
     assert_eq!((value(second, "flag"), value(second, "raw")), ("false".into(), "null".into()));
     assert_eq!(second.geometry, "without a geometry");
+}
+
+/// The folder of a written layer of the three polygons, one file of which is cut off or gone.
+fn cut(format: Format, extension: &str, keep: impl Fn(&[u8]) -> usize) -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    let path = file(&folder, format);
+    write(format, &path, POLYGONS, None).unwrap();
+    let path = path.with_extension(extension);
+    let bytes = std::fs::read(&path).unwrap();
+    std::fs::write(path, &bytes[..keep(&bytes)]).unwrap();
+    folder
+}
+
+#[test]
+fn an_index_that_is_cut_off_loses_no_shapes() {
+    for keep in [50, 100, 108, 113] {
+        let folder = cut(Format::Shp, "shx", |_| keep);
+        let layer = read(Format::Shp, &file(&folder, Format::Shp));
+        let whole = if keep < 100 { 100 } else { 124 };
+        let expected = format!("has {keep} of {whole} bytes");
+        assert!(layer.warnings.iter().any(|warning| warning.contains(&expected)), "{keep}");
+        assert_eq!(layer.map(Result::unwrap).count(), 3, "{keep}");
+    }
+}
+
+#[test]
+fn shapes_without_values_are_noted() {
+    let folder = cut(Format::Shp, "dbf", |bytes| bytes.len() - 20);
+    let found: Vec<Feature> =
+        read(Format::Shp, &file(&folder, Format::Shp)).map(Result::unwrap).collect();
+    let codes = |k: usize| found[k].notes.iter().map(|note| note.code).collect::<Vec<_>>();
+    assert_eq!((codes(1), codes(2)), (vec![], vec!["values_missing"]));
+    // A table that says that it has fewer rows.
+    let path = file(&folder, Format::Shp).with_extension("dbf");
+    let mut bytes = std::fs::read(&path).unwrap();
+    bytes[4] = 1;
+    std::fs::write(&path, bytes).unwrap();
+    let found = read(Format::Shp, &file(&folder, Format::Shp)).map(Result::unwrap);
+    assert_eq!(found.map(|feature| feature.notes.len()).collect::<Vec<_>>(), [0, 1, 1]);
+}
+
+#[test]
+fn shapes_that_break_off_between_two_of_them_are_missed() {
+    // Behind the first record, and within the second one.
+    for more in [0, 4, 20] {
+        let folder = cut(Format::Shp, "shp", |bytes| {
+            let words = u32::from_be_bytes(*bytes[104..].first_chunk().unwrap()) as usize;
+            100 + 8 + 2 * words + more
+        });
+        let path = file(&folder, Format::Shp);
+        std::fs::remove_file(path.with_extension("shx")).unwrap();
+        let found: Vec<_> = read(Format::Shp, &path).collect();
+        assert_eq!(found.len(), 2, "{more}");
+        let error = &found[1].as_ref().unwrap_err().error;
+        assert!(matches!(error, Error::Interrupted { .. }), "{error}");
+    }
+}
+
+#[test]
+fn a_flatgeobuf_that_breaks_off_between_two_features_is_short_of_some() {
+    let whole = cut(Format::Fgb, "fgb", <[u8]>::len);
+    let bytes = std::fs::read(file(&whole, Format::Fgb)).unwrap();
+    let size = |at: usize| u32::from_le_bytes(*bytes[at..].first_chunk().unwrap()) as usize;
+    // Behind the header is the index: three leaves and a root of 40 bytes each.
+    let mut starts = Vec::new();
+    let mut at = 8 + 4 + size(8) + 4 * 40;
+    while at < bytes.len() {
+        starts.push(at);
+        at += 4 + size(at);
+    }
+    assert_eq!(starts.len(), 3);
+    let folder = cut(Format::Fgb, "fgb", |_| starts[2]);
+    let found: Vec<_> = read(Format::Fgb, &file(&folder, Format::Fgb)).collect();
+    assert_eq!(found.len(), 3);
+    let error = &found[2].as_ref().unwrap_err().error;
+    assert_eq!(error.to_string(), "the file ends after 2 of 3 features");
+    assert!(matches!(error, Error::Interrupted { .. }));
 }
 
 /// A small generator of numbers, the same on every run.

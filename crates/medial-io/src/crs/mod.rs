@@ -1,5 +1,6 @@
 //! Coordinate reference systems, as far as they can be told without a library of projections.
 
+mod agreement;
 mod esri;
 mod first;
 mod methods;
@@ -74,12 +75,15 @@ impl Crs {
     }
 
     /// What well-known text says, of either version; of ESRI's names for them the most common ones are
-    /// known.
+    /// known, where what else is said agrees with them.
     #[must_use]
     pub fn of_wkt(wkt: &str) -> Self {
         let wkt = wkt.trim();
         let epsg = |code| ("EPSG".to_owned(), code);
-        let of_name = || esri::code(&name_in(wkt)?).map(|code| epsg(code.to_string()));
+        let of_name = || {
+            let code = esri::code(&name_in(wkt)?)?;
+            agreement::agree(wkt, &Self::epsg(code)).then(|| epsg(code.to_string()))
+        };
         // A vertical system behind the first one makes another one of both.
         let is_one = Node::read_all(wkt).is_none_or(|nodes| nodes.len() == 1);
         let authority = if is_one { identifier(wkt).or_else(of_name) } else { None };
@@ -418,6 +422,28 @@ mod tests {
         assert_eq!(of("WGS_1984_UTM_Zone_99N"), None);
         let both = Crs::of_wkt("PROJCS[\"RD_New\"],VERTCS[\"NAP\"]");
         assert_eq!(both.epsg_code(), None, "that is of the first one only");
+    }
+
+    /// As the command line of ESRI writes them; the datum of a name is that of the geographic system.
+    #[test]
+    fn names_of_esri_stand_for_a_code_only_where_all_agrees() {
+        const UTM: &str = "PROJCS[\"WGS_1984_UTM_Zone_33N\",GEOGCS[\"GCS_WGS_1984\",\
+            DATUM[\"D_WGS_1984\",SPHEROID[\"WGS_1984\",6378137.0,298.257223563]],\
+            PRIMEM[\"Greenwich\",0.0],UNIT[\"Degree\",0.0174532925199433]],\
+            PROJECTION[\"Transverse_Mercator\"],PARAMETER[\"False_Easting\",500000.0],\
+            PARAMETER[\"False_Northing\",0.0],PARAMETER[\"Central_Meridian\",15.0],\
+            PARAMETER[\"Scale_Factor\",0.9996],PARAMETER[\"Latitude_Of_Origin\",0.0],UNIT[\"Meter\",1.0]]";
+        assert_eq!(Crs::of_wkt(UTM).epsg_code(), Some(32633));
+        for (from, to) in [
+            ("UNIT[\"Meter\",1.0]", "UNIT[\"Foot_US\",0.304800609601219]"),
+            ("Transverse_Mercator", "Mercator"),
+            ("Central_Meridian\",15.0", "Central_Meridian\",9.0"),
+            ("6378137.0,298.257223563", "6377397.155,299.1528128"),
+        ] {
+            let other = UTM.replace(from, to);
+            assert_ne!(other, UTM);
+            assert_eq!(Crs::of_wkt(&other).epsg_code(), None, "{to}");
+        }
     }
 
     #[test]

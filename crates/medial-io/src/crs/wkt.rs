@@ -68,7 +68,7 @@ fn authority(of: &Value) -> Option<(String, String)> {
 }
 
 /// A unit by its name, or with all that is to know: its word, its name and its factor.
-fn unit(of: &Value) -> Option<(&'static str, String, f64)> {
+pub(super) fn unit(of: &Value) -> Option<(&'static str, String, f64)> {
     Some(match of.as_str() {
         Some("metre") => ("LENGTHUNIT", "metre".to_owned(), 1.0),
         Some("degree") => ("ANGLEUNIT", "degree".to_owned(), 0.017_453_292_519_943_3),
@@ -100,7 +100,7 @@ fn with_unit(value: &Value, usual: &str) -> Option<(f64, Value)> {
 }
 
 /// The length of the longer half axis, its unit, and the inverse flattening, 0 for a sphere.
-fn ellipsoid(of: &Value) -> Option<(f64, Value, f64)> {
+pub(super) fn ellipsoid(of: &Value) -> Option<(f64, Value, f64)> {
     if let Some((radius, unit)) = with_unit(&of["radius"], "metre") {
         return Some((radius, unit, 0.0));
     }

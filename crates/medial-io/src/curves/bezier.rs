@@ -79,6 +79,13 @@ impl Bezier {
         self.points.iter().map(|p| projected(*p)).chain(self.ends)
     }
 
+    /// What tells it from other curves between the same ends.
+    pub(super) fn between(&self) -> impl Iterator<Item = f64> + '_ {
+        let last = self.points.len() - 1;
+        let weights = [self.points[0][2], self.points[last][2]];
+        self.points[1..last].iter().copied().flatten().chain(weights)
+    }
+
     /// Its control points, the ends included.
     pub fn control_points(&self) -> Vec<Point> {
         self.points.iter().map(|p| projected(*p)).collect()

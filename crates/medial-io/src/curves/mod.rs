@@ -85,6 +85,18 @@ impl Segment {
         }
     }
 
+    /// What tells it from other segments between the same ends, in the same direction.
+    pub fn between(&self) -> Vec<f64> {
+        match self {
+            Self::Line(_) => Vec::new(),
+            Self::Bezier(curve) => curve.between().collect(),
+            Self::Arc(arc) => {
+                let points = [arc.centre, arc.u, arc.v];
+                points.iter().flat_map(|p| [p.x, p.y]).chain([arc.sweep]).collect()
+            }
+        }
+    }
+
     /// The segment after an affine map, `linear` for differences of points.
     pub fn map(&self, map: impl Fn(Point) -> Point, linear: impl Fn(Point) -> Point) -> Self {
         match self {

@@ -22,8 +22,8 @@ pub(super) enum Drawn {
     Closed(Contour),
     /// A line, which may be closed by others.
     Open(Contour),
-    /// What is filled.
-    Filled(Vec<Contour>),
+    /// What is filled, by the paths that bound it.
+    Filled(Vec<Contour>, hatch::Style),
     /// Nothing that could bound a polygon.
     Other,
 }
@@ -144,7 +144,8 @@ impl<'a> Entity<'a> {
             "HATCH" | "MPOLYGON" => {
                 let plane = fields.plane(30)?;
                 let paths = hatch::paths(&fields)?;
-                Ok(Drawn::Filled(paths.iter().map(|path| plane.contour(path)).collect()))
+                let paths = paths.iter().map(|path| plane.contour(path)).collect();
+                Ok(Drawn::Filled(paths, hatch::Style::of(&fields)?))
             }
             _ => Ok(Drawn::Other),
         }
@@ -163,7 +164,8 @@ impl<'a> Entity<'a> {
             // Not the frame of a spline.
             if part.first().is_some_and(|g| g.is(0, "VERTEX")) && vertex.whole_or(70, 0)? & 16 == 0
             {
-                vertices.push((vertex.point(10)?, vertex.real_or(42, 0.0)?));
+                let bulge = vertex.find(42).map(Group::bulge).transpose()?;
+                vertices.push((vertex.point(10)?, bulge.unwrap_or(0.0)));
             }
         }
         // Vertices in space have no plane of their own.
@@ -184,7 +186,7 @@ fn lightweight(fields: &Fields) -> Result<Drawn, Error> {
             }
             42 => {
                 if let Some((_, bulge)) = vertices.last_mut() {
-                    *bulge = group.real()?;
+                    *bulge = group.bulge()?;
                 }
             }
             _ => {}

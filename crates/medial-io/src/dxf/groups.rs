@@ -48,6 +48,17 @@ impl<'a> Group<'a> {
         }
     }
 
+    /// The tangent of a quarter of the angle of an arc.
+    pub fn bulge(&self) -> Result<f64, Error> {
+        /// Far more than a full circle but for rounding, and what can be computed with.
+        const MOST: f64 = 1e100;
+        let bulge = self.real()?;
+        match -MOST <= bulge && bulge <= MOST {
+            true => Ok(bulge),
+            false => Err(self.wrong(format!("`{bulge}` is no bulge; correct it"))),
+        }
+    }
+
     pub fn whole(&self) -> Result<i64, Error> {
         match self.value {
             Value::Real(value) => Ok(value as i64),

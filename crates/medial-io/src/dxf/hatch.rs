@@ -3,10 +3,41 @@
 use super::chain::chains;
 use super::entity::{Fields, arc, bulges, contour, of_spline};
 use super::groups::Group;
+use super::nest::Nest;
 use crate::Error;
 use crate::curves::{Arc, Contour, Nurbs};
 use medial::geom::Point;
 use std::f64::consts::TAU;
+
+/// Which of the paths that lie in one another are filled.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Style {
+    /// Every other one.
+    Nested,
+    /// What lies between the outermost ones and those directly in them.
+    Outermost,
+    /// All that lies within the outermost ones.
+    Ignore,
+}
+
+impl Style {
+    pub fn of(fields: &Fields) -> Result<Self, Error> {
+        Ok(match fields.whole_or(75, 0)? {
+            1 => Self::Outermost,
+            2 => Self::Ignore,
+            _ => Self::Nested,
+        })
+    }
+
+    /// The polygons that are filled of outlines with their holes.
+    pub fn filled(self, mut nests: Vec<Nest>) -> Vec<Nest> {
+        nests.retain(|nest| self == Self::Nested || nest.depth == 0);
+        if self == Self::Ignore {
+            nests.iter_mut().for_each(|nest| nest.rings.truncate(1));
+        }
+        nests
+    }
+}
 
 /// The closed paths that bound a hatch.
 pub(super) fn paths(fields: &Fields) -> Result<Vec<Contour>, Error> {
@@ -78,7 +109,7 @@ impl<'a> Reader<'a> {
         let mut vertices = Vec::new();
         for _ in 0..n {
             let p = self.point(10)?;
-            let bulge = self.maybe(42).map_or(Ok(0.0), Group::real)?;
+            let bulge = self.maybe(42).map_or(Ok(0.0), Group::bulge)?;
             vertices.push((p, bulge));
         }
         Ok(bulges(&vertices, true))

@@ -3,8 +3,13 @@
 use crate::curves::{Contour, flatten};
 use medial::geom::{Point, Rect};
 
-/// An outline with those that are its holes, by their numbers.
-pub(super) type Nest = Vec<usize>;
+/// An outline with those that are its holes.
+pub(super) struct Nest {
+    /// How many outlines it lies in, an even number.
+    pub depth: usize,
+    /// The numbers of the outline and of its holes.
+    pub rings: Vec<usize>,
+}
 
 /// Groups closed outlines by their depth: each at an even depth is the outer ring of those directly in it.
 pub(super) fn nests(contours: &[&Contour]) -> Vec<Nest> {
@@ -26,7 +31,7 @@ pub(super) fn nests(contours: &[&Contour]) -> Vec<Nest> {
         }
         active.push(k);
     }
-    let mut holes: Vec<Nest> = (0..rings.len()).map(|k| vec![k]).collect();
+    let mut holes: Vec<Vec<usize>> = (0..rings.len()).map(|k| vec![k]).collect();
     for k in 0..rings.len() {
         if around[k].len() % 2 == 1 {
             let smallest = around[k].iter().copied().filter(|o| around[*o].len().is_multiple_of(2));
@@ -40,7 +45,7 @@ pub(super) fn nests(contours: &[&Contour]) -> Vec<Nest> {
     }
     (0..rings.len())
         .filter(|k| around[*k].len().is_multiple_of(2))
-        .map(|k| std::mem::take(&mut holes[k]))
+        .map(|k| Nest { depth: around[k].len(), rings: std::mem::take(&mut holes[k]) })
         .collect()
 }
 

@@ -6,10 +6,10 @@
 //! of the layer too, with the reason. Only model space is read, seen from above. What nobody sees, on layers
 //! that are off or frozen and entities that are invisible, is passed over, unless its layer is asked for.
 
-use super::chain::chains;
+use super::chain::{Chain, chains};
 use super::entity::{Drawn, Entity, Fields};
 use super::groups::{Group, groups};
-use super::nest::nests;
+use super::nest::{Nest, nests};
 use crate::curves::{Affine, Contour, flatten};
 use crate::json::{quoted, whole};
 use crate::{Error, Feature, FeatureError, Json, Layer, Note, Part, ReadOptions};
@@ -23,8 +23,8 @@ const DEPTH: usize = 32;
 /// Most entities that are drawn, those of blocks each time.
 const MOST: usize = 1_000_000;
 
-/// Units of length by their number in the header, as far as they have short names.
-pub(super) const UNITS: [(i64, &str); 14] = [
+/// Units of length by their number in the header.
+pub(super) const UNITS: [(i64, &str); 24] = [
     (1, "in"),
     (2, "ft"),
     (3, "mi"),
@@ -39,6 +39,16 @@ pub(super) const UNITS: [(i64, &str); 14] = [
     (12, "nm"),
     (13, "um"),
     (14, "dm"),
+    (15, "dam"),
+    (16, "hm"),
+    (17, "Gm"),
+    (18, "au"),
+    (19, "ly"),
+    (20, "pc"),
+    (21, "us-ft"),
+    (22, "us-in"),
+    (23, "us-yd"),
+    (24, "us-mi"),
 ];
 
 /// Reads the outlines of a drawing.
@@ -76,7 +86,10 @@ pub fn read<'a>(bytes: &[u8], options: &ReadOptions) -> Result<Layer<'a>, Error>
         // Curves are flattened where features are read.
         Part::of_row(item.size(), move || item.feature(index, tolerance))
     });
-    let warnings = drawing_warnings(n_unseen, &unseen);
+    let mut warnings = drawing_warnings(n_unseen, &unseen);
+    warnings.extend(file.unknown_units.map(|number| {
+        format!("its units are not known ($INSUNITS is {number}) and are left out; set them in the drawing")
+    }));
     Ok(Layer { len, warnings, units: file.units, ..Layer::of_parts(features) })
 }
 
@@ -105,6 +118,8 @@ enum Seen {
 /// The parts of a file that are used.
 struct File<'a> {
     units: Option<&'static str>,
+    /// The number of units that are none.
+    unknown_units: Option<i64>,
     /// Layers that are not seen, by their names in capitals.
     unseen: HashMap<String, Seen>,
     blocks: HashMap<String, Block<'a>>,
@@ -124,6 +139,7 @@ impl<'a> File<'a> {
         }
         let mut file = Self {
             units: None,
+            unknown_units: None,
             unseen: HashMap::new(),
             blocks: HashMap::new(),
             entities: Vec::new(),
@@ -156,6 +172,8 @@ impl<'a> File<'a> {
         let variable = groups.iter().position(|group| group.is(9, "$INSUNITS"));
         let number = variable.and_then(|k| groups.get(k + 1)).and_then(|g| g.whole().ok());
         self.units = UNITS.iter().find(|(n, _)| Some(*n) == number).map(|(_, name)| *name);
+        // Without units it is 0.
+        self.unknown_units = number.filter(|number| *number != 0 && self.units.is_none());
     }
 
     fn tables(&mut self, groups: &'a [Group<'a>]) {
@@ -251,10 +269,11 @@ struct Line {
     contour: Contour,
 }
 
-/// A closed outline of some lines, and the widest gap between them.
+/// A closed outline of some lines, how many repeat them, and the widest gap between them.
 struct Outline<'a> {
     lines: Vec<&'a Line>,
     contour: Contour,
+    n_repeats: usize,
     gap: f64,
 }
 
@@ -335,11 +354,11 @@ impl Drawing {
             Ok(Drawn::Open(contour)) => {
                 self.open.push(Line { order, source, contour: to_plane(&contour) });
             }
-            Ok(Drawn::Filled(contours)) => {
+            Ok(Drawn::Filled(contours, style)) => {
                 let contours: Vec<Contour> = contours.iter().map(to_plane).collect();
-                let nests = nests(&contours.iter().collect::<Vec<_>>());
+                let nests = style.filled(nests(&contours.iter().collect::<Vec<_>>()));
                 let polygon =
-                    |nest: Vec<usize>| nest.into_iter().map(|k| contours[k].clone()).collect();
+                    |nest: Nest| nest.rings.into_iter().map(|k| contours[k].clone()).collect();
                 let polygons = nests.into_iter().map(polygon).collect();
                 self.items.push((order, Item::of(&source, Some(Ok(polygons)))));
             }
@@ -438,14 +457,16 @@ impl Drawing {
                 outlines.push(Outline {
                     lines: vec![line],
                     contour: line.contour.clone(),
+                    n_repeats: 0,
                     gap: 0.0,
                 });
             }
             let lines: Vec<Contour> = open.iter().map(|k| self.open[*k].contour.clone()).collect();
             for chain in chains(&lines) {
                 let lines: Vec<&Line> = chain.parts.iter().map(|k| &self.open[open[*k]]).collect();
-                let outline = Outline { lines, contour: chain.contour, gap: chain.gap };
-                if chain.closed {
+                let Chain { contour, n_repeats, gap, closed, .. } = chain;
+                let outline = Outline { lines, contour, n_repeats, gap };
+                if closed {
                     outlines.push(outline);
                 } else {
                     self.items.extend(unclosed(&outline));
@@ -454,9 +475,9 @@ impl Drawing {
             outlines.sort_by_key(Outline::order);
             for nest in nests(&outlines.iter().map(|outline| &outline.contour).collect::<Vec<_>>())
             {
-                let rings = || nest.iter().map(|k| &outlines[*k]);
+                let rings = || nest.rings.iter().map(|k| &outlines[*k]);
                 let first = rings().map(Outline::order).min().unwrap_or(0);
-                let outer = &outlines[nest[0]];
+                let outer = &outlines[nest.rings[0]];
                 let Some(line) = outer.first() else { continue };
                 let contours = rings().map(|ring| ring.contour.clone()).collect();
                 let mut item = Item::of(&line.source, Some(Ok(vec![contours])));
@@ -467,6 +488,13 @@ impl Drawing {
                 if gap > 0.0 {
                     let text = format!("ends of lines that are up to {gap:e} apart are joined");
                     item.notes.push(Note { code: "gap_closed", text });
+                }
+                let n_repeats: usize = rings().map(|ring| ring.n_repeats).sum();
+                if n_repeats > 0 {
+                    let text = format!(
+                        "lines that are drawn more than once are taken once: {n_repeats} are left out"
+                    );
+                    item.notes.push(Note { code: "duplicate_line", text });
                 }
                 self.items.push((first, item));
             }

@@ -74,6 +74,18 @@ fn lines_and_arcs_close_and_lie_in_one_another() {
 }
 
 #[test]
+fn an_outline_with_a_line_drawn_twice_is_one() {
+    let read = features(
+        "0=LINE 8=0 10=0 20=0 11=5 21=0 0=LINE 8=0 10=0 20=0 11=5 21=0 \
+         0=LINE 8=0 10=5 20=0 11=5 21=5 0=LINE 8=0 10=5 20=5 11=0 21=0",
+    );
+    let [Ok(triangle)] = &read[..] else { panic!("{read:?}") };
+    near(area(triangle), 12.5);
+    assert_eq!(triangle.notes[0].code, "duplicate_line");
+    assert!(triangle.notes[0].text.ends_with(": 1 are left out"));
+}
+
+#[test]
 fn what_is_open_or_no_outline_is_told() {
     let read = features(
         "0=LINE 8=a 10=0 20=0 11=1 21=0 0=LINE 8=a 10=1 20=0 11=1 21=1 0=TEXT 8=t 1=Hi \
@@ -137,6 +149,50 @@ fn hatches_are_features_of_their_own() {
     let read: Vec<Feature> = read.into_iter().map(Result::unwrap).collect();
     assert_eq!(read.len(), 1);
     near(area(&read[0]), 81.0 - 0.5 * PI);
+}
+
+#[test]
+fn styles_of_hatches_tell_which_paths_are_filled() {
+    let square = |a: u32| {
+        let b = 10 - a;
+        format!("92=2 72=0 73=1 93=4 10={a} 20={a} 10={b} 20={a} 10={b} 20={b} 10={a} 20={b} 97=0 ")
+    };
+    let paths = [0, 1, 2].map(square).concat();
+    for (style, expected) in [(0, 100.0 - 64.0 + 36.0), (1, 100.0 - 64.0), (2, 100.0)] {
+        let read = features(&format!("0=HATCH 8=h 70=1 91=3 {paths} 75={style} 76=1 98=0"));
+        near(area(read[0].as_ref().unwrap()), expected);
+    }
+}
+
+#[test]
+fn all_units_have_names() {
+    let of = |number: &str| {
+        let text = file("0=CIRCLE 8=a 10=0 20=0 40=1");
+        let text = text.replace("$INSUNITS\n70\n4\n", &format!("$INSUNITS\n70\n{number}\n"));
+        let layer = read(text.as_bytes(), &ReadOptions::default()).unwrap();
+        (layer.units, layer.warnings)
+    };
+    assert_eq!(of("21"), (Some("us-ft"), vec![]));
+    assert_eq!(of("0"), (None, vec![]));
+    let (units, warnings) = of("25");
+    assert!(units.is_none() && warnings[0].contains("$INSUNITS is 25"), "{warnings:?}");
+    assert!(header(Some("us-ft")).contains("$INSUNITS\n70\n21\n9\n$MEASUREMENT\n70\n0\n"));
+}
+
+#[test]
+fn a_bulge_that_is_none_is_refused() {
+    for value in ["inf", "nan", "1e300"] {
+        let read = features(&format!(
+            "0=LWPOLYLINE 8=0 70=1 10=0 20=0 42={value} 10=2 20=0 42=1 \
+             0=POLYLINE 8=1 70=1 0=VERTEX 8=1 10=0 20=0 42={value} 0=VERTEX 8=1 10=1 20=1 0=SEQEND \
+             0=HATCH 8=2 91=1 92=2 72=1 73=1 93=2 10=0 20=0 42={value} 10=1 20=0 42=1 97=0"
+        ));
+        assert_eq!(read.len(), 3, "{value}");
+        for read in read {
+            let error = read.unwrap_err().to_string();
+            assert!(error.contains("group 42: ") && error.contains("is no bulge"), "{error}");
+        }
+    }
 }
 
 #[test]

@@ -47,8 +47,8 @@ pub const FOOTER: &str = "0\nENDSEC\n0\nSECTION\n2\nOBJECTS\n0\nDICTIONARY\n5\nC
 pub fn header(units: Option<&str>) -> String {
     let number = super::read::UNITS.iter().find(|(_, name)| Some(*name) == units);
     let number = number.map_or(0, |(number, _)| *number);
-    // Inches, feet, miles, mils and yards are imperial.
-    let metric = i32::from(!matches!(number, 1..=3 | 8..=10));
+    // Inches, feet, miles, mils and yards are imperial, those of surveys too.
+    let metric = i32::from(!matches!(number, 1..=3 | 8..=10 | 21..=24));
     let mut out = format!(
         "0\nSECTION\n2\nHEADER\n9\n$ACADVER\n1\nAC1015\n9\n$DWGCODEPAGE\n3\nANSI_1252\n9\n$HANDSEED\n5\nFFFFFFF\n\
          9\n$INSUNITS\n70\n{number}\n9\n$MEASUREMENT\n70\n{metric}\n0\nENDSEC\n0\nSECTION\n2\nTABLES\n"

@@ -1,3 +1,4 @@
+use crate::table::told_apart;
 use crate::{Crs, Error, Feature, FeatureError, Json, Layer, Part, attribute};
 use flatgeobuf::{
     ColumnType, Geometry, GeometryType, Header, size_prefixed_root_as_feature,
@@ -45,9 +46,12 @@ pub fn open(path: &Path) -> Result<Layer<'static>, Error> {
     let buffer = buffer.ok_or_else(|| wrong("it has no header"))?;
     let header = size_prefixed_root_as_header(&buffer)
         .map_err(|error| wrong(&format!("its header is malformed: {}", plain(&error))))?;
-    let columns = header.columns().map_or_else(Vec::new, |columns| {
+    let columns: Vec<(String, ColumnType)> = header.columns().map_or_else(Vec::new, |columns| {
         columns.iter().map(|column| (column.name().to_owned(), column.type_())).collect()
     });
+    let mut warnings = Vec::new();
+    let (names, kinds): (Vec<String>, Vec<ColumnType>) = columns.into_iter().unzip();
+    let columns = told_apart(names, &mut warnings).into_iter().zip(kinds).collect();
     let described = Arc::new(Described { columns, kind: header.geometry_type() });
     let count = header.features_count();
     let index = index_bytes(count, header.index_node_size());
@@ -56,8 +60,8 @@ pub fn open(path: &Path) -> Result<Layer<'static>, Error> {
     let crs = reference(&header);
     source.seek(SeekFrom::Current(index)).map_err(failed)?;
     let len = usize::try_from(count).ok().filter(|&count| count > 0);
-    let features = Features { source, described, index: 0, is_over: false };
-    Ok(Layer { crs, len, ..Layer::of_parts(features) })
+    let features = Features { source, described, index: 0, expected: count, is_over: false };
+    Ok(Layer { crs, len, warnings, ..Layer::of_parts(features) })
 }
 
 /// A flatbuffer behind its size, with it; `None` at the end.
@@ -122,6 +126,8 @@ struct Features {
     source: BufReader<File>,
     described: Arc<Described>,
     index: usize,
+    /// How many there are by the header, 0 if it does not say.
+    expected: u64,
     is_over: bool,
 }
 
@@ -134,7 +140,15 @@ impl Iterator for Features {
         }
         let index = self.index;
         let buffer = match message(&mut self.source, u64::MAX) {
-            Ok(buffer) => buffer?,
+            Ok(Some(buffer)) => buffer,
+            Ok(None) => {
+                self.is_over = true;
+                let n = self.expected;
+                let why = format!("the file ends after {index} of {n} features");
+                let source = io::Error::new(io::ErrorKind::UnexpectedEof, why);
+                let is_short = (index as u64) < n;
+                return is_short.then(|| Part::broken(index, Error::Interrupted { source }));
+            }
             Err(source) => {
                 self.is_over = true;
                 return Some(Part::broken(index, Error::Interrupted { source }));

@@ -7,8 +7,9 @@ use parquet::basic::{LogicalType, TimeUnit};
 use parquet::data_type::Decimal;
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::{Field, List, Row};
-use parquet::schema::types::Type;
+use parquet::schema::types::{Type, TypePtr};
 use serde_json::Value;
+use std::collections::{BTreeSet, HashMap};
 use std::fs::File;
 use std::panic::AssertUnwindSafe;
 use std::path::Path;
@@ -112,8 +113,19 @@ pub fn open(path: &Path) -> Result<Layer<'static>, Error> {
             "there is no column `{name}`, which should have the geometries"
         )));
     }
-    let roles: Arc<[Role]> = schema
-        .get_fields()
+    let (fields, repeated) = told_apart(schema.get_fields());
+    let mut warnings = Vec::new();
+    let mut projection = None;
+    if !repeated.is_empty() {
+        warnings.push(format!(
+            "several columns have one name, {}; only the last one of each is read: rename the others",
+            repeated.join(", ")
+        ));
+        let fields = fields.iter().map(|field| Arc::clone(field)).collect();
+        let part = Type::group_type_builder(schema.name()).with_fields(fields).build();
+        projection = Some(part.map_err(|error| wrong(plain(&error)))?);
+    }
+    let roles: Arc<[Role]> = fields
         .iter()
         .map(|field| match field.name() {
             of if of == name => Role::Geometry(encoding),
@@ -123,9 +135,24 @@ pub fn open(path: &Path) -> Result<Layer<'static>, Error> {
         .collect();
     let len = usize::try_from(metadata.num_rows()).ok();
     are_pages.store(true, Ordering::Relaxed);
-    let parts = read_apart(move |rows| read(&reader, &roles, rows).map_err(|error| plain(&error)))
-        .map_err(|source| Error::Interrupted { source })?;
-    Ok(Layer { crs, len, ..Layer::of_parts(parts) })
+    let find = move |rows: &mut Rows| {
+        read(&reader, projection.as_ref(), &roles, rows).map_err(|error| plain(&error))
+    };
+    let parts = read_apart(find).map_err(|source| Error::Interrupted { source })?;
+    Ok(Layer { crs, len, warnings, ..Layer::of_parts(parts) })
+}
+
+/// The columns that can be told apart, as the library looks for them by name and finds the last one; and names
+/// that several have.
+fn told_apart(fields: &[TypePtr]) -> (Vec<&TypePtr>, Vec<String>) {
+    let last: HashMap<&str, usize> =
+        fields.iter().enumerate().map(|(k, field)| (field.name(), k)).collect();
+    let is_last = |k: usize, field: &TypePtr| last.get(field.name()) == Some(&k);
+    let kept = fields.iter().enumerate().filter(|(k, field)| is_last(*k, field));
+    let others = fields.iter().enumerate().filter(|(k, field)| !is_last(*k, field));
+    let repeated: BTreeSet<String> =
+        others.map(|(_, field)| format!("`{}`", field.name())).collect();
+    (kept.map(|(_, field)| field).collect(), repeated.into_iter().collect())
 }
 
 /// What the library says, without its own kind of error.
@@ -154,13 +181,14 @@ fn role(field: &Type) -> Role {
 /// Hands over the rows of a file.
 fn read(
     reader: &SerializedFileReader<Pages>,
+    projection: Option<&Type>,
     roles: &Arc<[Role]>,
     rows: &mut Rows,
 ) -> parquet::errors::Result<()> {
     let mut index = 0;
     for group in 0..reader.num_row_groups() {
         let group = reader.get_row_group(group)?;
-        for row in group.get_row_iter(None)? {
+        for row in group.get_row_iter(projection.cloned())? {
             if !rows.push(part(row?, index, Arc::clone(roles))) {
                 return Ok(());
             }

@@ -1,15 +1,15 @@
 //! Tables of dBase, as far as shapefiles have them.
 
+use super::encoding::Encoding;
+use crate::table::told_apart;
 use crate::{Json, attribute};
-use encoding_rs::{Encoding, UTF_8, WINDOWS_1252};
 use std::io::{self, Read};
 
 /// The values of a table, row after row.
 pub(super) struct Reader<R> {
     source: R,
     fields: Vec<Field>,
-    /// None if it is not said; then text is UTF-8 where it can be.
-    encoding: Option<&'static Encoding>,
+    encoding: Encoding,
     row: usize,
     /// Rows that are still to come.
     left: u32,
@@ -29,11 +29,16 @@ pub(super) enum Row {
 }
 
 impl<R: Read> Reader<R> {
-    /// A table, in the encoding that a `.cpg` names, else that which the table itself names.
+    /// A table, in the encoding that a `.cpg` names, else that which the table itself names; with a warning
+    /// for each that is not known.
     ///
     /// # Errors
     /// If it is no such table.
-    pub(super) fn new(mut source: R, encoding: Option<&str>) -> Result<Self, String> {
+    pub(super) fn new(
+        mut source: R,
+        encoding: Option<&str>,
+        warnings: &mut Vec<String>,
+    ) -> Result<Self, String> {
         let wrong = |why: &str| format!("its .dbf is no table of dBase: {why}");
         let mut head = [0; 32];
         source.read_exact(&mut head).map_err(|_| wrong("it has no header"))?;
@@ -42,7 +47,7 @@ impl<R: Read> Reader<R> {
         let size = usize::from(size);
         let mut described = vec![0; size.saturating_sub(32)];
         source.read_exact(&mut described).map_err(|_| wrong("its header ends too early"))?;
-        let encoding = encoding.and_then(named).or_else(|| numbered(head[29]));
+        let encoding = Encoding::of(encoding, head[29], warnings);
         let mut fields = Vec::new();
         let mut total = 1;
         for bytes in described.chunks_exact(32) {
@@ -54,8 +59,12 @@ impl<R: Read> Reader<R> {
             // Long texts keep the upper half of their size where numbers have their decimals.
             let size =
                 usize::from(bytes[16]) + if kind == b'C' { 256 * usize::from(decimals) } else { 0 };
-            fields.push(Field { name: decoded(name, encoding), kind, size, decimals });
+            fields.push(Field { name: encoding.decode(name), kind, size, decimals });
             total += size;
+        }
+        let names = fields.iter().map(|field: &Field| field.name.clone()).collect();
+        for (field, name) in fields.iter_mut().zip(told_apart(names, warnings)) {
+            field.name = name;
         }
         if total > usize::from(row) {
             return Err(wrong("its fields are longer than its rows"));
@@ -86,13 +95,13 @@ impl<R: Read> Reader<R> {
         for field in &self.fields {
             let bytes = &row[at..at + field.size];
             at += field.size;
-            values.push((field.name.clone(), value(bytes, field, self.encoding)));
+            values.push((field.name.clone(), value(bytes, field, &self.encoding)));
         }
         Ok(Some(Row::Values(values)))
     }
 }
 
-fn value(bytes: &[u8], field: &Field, encoding: Option<&'static Encoding>) -> Json {
+fn value(bytes: &[u8], field: &Field, encoding: &Encoding) -> Json {
     let trimmed = bytes.split(|&byte| byte == 0).next().unwrap_or_default().trim_ascii();
     let chunk = bytes.first_chunk::<8>();
     match field.kind {
@@ -141,67 +150,11 @@ fn value(bytes: &[u8], field: &Field, encoding: Option<&'static Encoding>) -> Js
             attribute::text(&attribute::moment(units, 1000, false))
         }
         // Spaces before a text are its own.
-        _ => match decoded(bytes.split(|&byte| byte == 0).next().unwrap_or_default(), encoding) {
+        _ => match encoding.decode(bytes.split(|&byte| byte == 0).next().unwrap_or_default()) {
             text if text.trim_end().is_empty() => attribute::null(),
             text => attribute::text(text.trim_end()),
         },
     }
-}
-
-fn decoded(bytes: &[u8], encoding: Option<&'static Encoding>) -> String {
-    match encoding {
-        Some(encoding) => encoding.decode_without_bom_handling(bytes).0.into_owned(),
-        None => UTF_8
-            .decode_without_bom_handling_and_without_replacement(bytes)
-            .unwrap_or_else(|| WINDOWS_1252.decode_without_bom_handling(bytes).0)
-            .into_owned(),
-    }
-}
-
-/// The encoding that a `.cpg` names.
-fn named(name: &str) -> Option<&'static Encoding> {
-    let name = name.trim().trim_start_matches('\u{feff}').to_ascii_lowercase();
-    let number = name.trim_start_matches(|c: char| !c.is_ascii_digit());
-    if let Some(encoding) = Encoding::for_label(name.as_bytes()) {
-        return Some(encoding);
-    }
-    match number {
-        "65001" => Some(UTF_8),
-        "936" => Some(encoding_rs::GBK),
-        "949" => Some(encoding_rs::EUC_KR),
-        "950" => Some(encoding_rs::BIG5),
-        "932" => Some(encoding_rs::SHIFT_JIS),
-        "866" => Some(encoding_rs::IBM866),
-        "1250" | "1251" | "1252" | "1253" | "1254" | "1255" | "1256" | "1257" | "1258" | "874" => {
-            Encoding::for_label(format!("windows-{number}").as_bytes())
-        }
-        _ => {
-            // `ISO 8859-1`, `88591`.
-            let digits: String = name.chars().filter(char::is_ascii_digit).collect();
-            let part = digits.strip_prefix("8859")?;
-            Encoding::for_label(format!("iso-8859-{part}").as_bytes())
-        }
-    }
-}
-
-/// The encoding with this number in the header of a table. Those of DOS have no place here; text in them
-/// is read as if nothing was said.
-fn numbered(driver: u8) -> Option<&'static Encoding> {
-    Some(match driver {
-        0x03 | 0x57 | 0x58 | 0x59 => WINDOWS_1252,
-        0x13 | 0x7b => encoding_rs::SHIFT_JIS,
-        0x26 | 0x65 => encoding_rs::IBM866,
-        0x4d | 0x7a => encoding_rs::GBK,
-        0x4e | 0x79 => encoding_rs::EUC_KR,
-        0x4f | 0x78 => encoding_rs::BIG5,
-        0x50 | 0x7c => encoding_rs::WINDOWS_874,
-        0xc8 => encoding_rs::WINDOWS_1250,
-        0xc9 => encoding_rs::WINDOWS_1251,
-        0xca => encoding_rs::WINDOWS_1254,
-        0xcb => encoding_rs::WINDOWS_1253,
-        0xcc => encoding_rs::WINDOWS_1257,
-        _ => return None,
-    })
 }
 
 #[cfg(test)]
@@ -228,7 +181,7 @@ mod tests {
     }
 
     fn values(bytes: &[u8], encoding: Option<&str>) -> Vec<String> {
-        match Reader::new(bytes, encoding).unwrap().row().unwrap().unwrap() {
+        match Reader::new(bytes, encoding, &mut Vec::new()).unwrap().row().unwrap().unwrap() {
             Row::Values(values) => {
                 values.into_iter().map(|(name, value)| format!("{name}={value}")).collect()
             }
@@ -266,14 +219,48 @@ mod tests {
         let utf_8 = table(&fields, " é".as_bytes(), 0);
         assert_eq!(values(&utf_8, None), ["c=\"é\""]);
         assert_eq!(values(&utf_8, Some("UTF-8")), ["c=\"é\""]);
-        assert_eq!(named("ISO 88592"), Encoding::for_label(b"iso-8859-2"));
+        assert_eq!(values(&latin, Some("ISO 88597")), ["c=\"ι\""]);
+    }
+
+    #[test]
+    fn texts_of_dos_are_in_their_code_page() {
+        // ü is 0x81 in all of these, and no letter in Windows-1252.
+        let name = |driver: u8| table(&[("c", b'C', 6, 0)], b" Z\x81rich", driver);
+        for (driver, cpg) in
+            [(1, None), (2, None), (0, Some("CP437")), (0, Some("850")), (0, Some("LDID/100"))]
+        {
+            assert_eq!(values(&name(driver), cpg), ["c=\"Zürich\""], "{driver} {cpg:?}");
+        }
+        let russian = table(&[("c", b'C', 2, 0)], b" \xa9 ", 0x65);
+        assert_eq!(values(&russian, None), ["c=\"й\""]);
+    }
+
+    #[test]
+    fn an_encoding_that_is_not_known_is_told() {
+        let warnings = |driver: u8, cpg: Option<&str>| {
+            let mut warnings = Vec::new();
+            let bytes = table(&[("c", b'C', 1, 0)], b" a", driver);
+            assert!(Reader::new(&bytes[..], cpg, &mut warnings).is_ok());
+            warnings
+        };
+        assert!(warnings(0, None).is_empty() && warnings(1, Some("UTF-8")).is_empty());
+        // The code page 895, which only Czech programs had.
+        assert!(warnings(0x68, None)[0].contains("language driver 104"));
+        let both = warnings(0x68, Some("nonsense\n"));
+        assert!(both.len() == 2 && both[0].contains("`nonsense`"), "{both:?}");
+    }
+
+    #[test]
+    fn fields_of_one_name_are_told_apart() {
+        let bytes = table(&[("a", b'N', 1, 0), ("a", b'N', 1, 0)], b" 12", 0);
+        assert_eq!(values(&bytes, None), ["a=1", "a_1=2"]);
     }
 
     #[test]
     fn a_table_that_makes_no_sense_is_refused() {
         let mut bytes = table(&[("c", b'C', 9, 0)], b" 123456789", 0);
         bytes[10] = 3;
-        assert!(Reader::new(&bytes[..], None).is_err());
-        assert!(Reader::new(&b"x"[..], None).is_err());
+        assert!(Reader::new(&bytes[..], None, &mut Vec::new()).is_err());
+        assert!(Reader::new(&b"x"[..], None, &mut Vec::new()).is_err());
     }
 }

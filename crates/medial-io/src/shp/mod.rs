@@ -2,6 +2,7 @@
 //! reference system in `.prj` and the name of the text encoding in `.cpg`.
 
 mod dbf;
+mod encoding;
 mod read;
 mod rings;
 mod write;

@@ -1,5 +1,5 @@
 use super::{HEADER, dbf, kind, rings};
-use crate::{Crs, Error, Feature, FeatureError, Json, Layer, Part};
+use crate::{Crs, Error, Feature, FeatureError, Layer, Note, Part};
 use medial::geom::Point;
 use std::fs::File;
 use std::io::{self, BufReader, Read, Seek, SeekFrom};
@@ -7,6 +7,9 @@ use std::path::{Path, PathBuf};
 
 /// Opens a shapefile by its `.shp`. The other files lie beside it; only the values are missing without
 /// `.dbf`, and the reference system without `.prj`. Rows that are marked as deleted are left out.
+///
+/// An index (`.shx`) that is shorter than its header says is not used, with a warning, nor is one without a
+/// header; a `.shp` that is shorter than its header says breaks off there.
 ///
 /// # Errors
 /// If a file cannot be read, or is no such file.
@@ -19,29 +22,51 @@ pub fn open(path: &Path) -> Result<Layer<'static>, Error> {
     if header[..4] != [0, 0, 0x27, 0x0a] {
         return Err(wrong("it does not begin like one"));
     }
-    let places = match beside(path, "shx") {
-        Some(found) => {
-            let mut places = BufReader::new(File::open(found).map_err(failed)?);
-            // An index that cannot be read is as good as none.
-            places.read_exact(&mut [0; HEADER]).is_ok().then_some(places)
-        }
+    let mut warnings = Vec::new();
+    let index = match beside(path, "shx") {
+        Some(found) => index(File::open(found).map_err(failed)?, &mut warnings),
         None => None,
     };
-    let len = places.as_ref().and_then(|file| file.get_ref().metadata().ok());
-    let len = len.map(|found| (found.len() as usize).saturating_sub(HEADER) / 8);
+    let (places, len) = index.unzip();
     let table = match beside(path, "dbf") {
         Some(found) => {
-            let encoding = beside(path, "cpg").and_then(|path| std::fs::read_to_string(path).ok());
+            let encoding = beside(path, "cpg").and_then(|path| std::fs::read(path).ok());
+            let encoding = encoding.as_deref().map(String::from_utf8_lossy);
             let file = BufReader::new(File::open(found).map_err(failed)?);
-            Some(dbf::Reader::new(file, encoding.as_deref()).map_err(|why| Error::File { why })?)
+            let table = dbf::Reader::new(file, encoding.as_deref(), &mut warnings);
+            Some(table.map_err(|why| Error::File { why })?)
         }
         None => None,
     };
     let crs = beside(path, "prj").and_then(|path| std::fs::read(path).ok());
     let crs = crs.map(|bytes| String::from_utf8_lossy(&bytes).trim().to_owned());
     let crs = crs.filter(|wkt| !wkt.is_empty()).map(|wkt| Crs::of_wkt(&wkt));
-    let rows = Shapes { shapes, places, table, n_records: 0, index: 0, is_over: false };
-    Ok(Layer { crs, len, ..Layer::of_parts(rows) })
+    let (at, end) = (HEADER as u64, length(&header));
+    let rows = Shapes { shapes, at, end, places, table, n_records: 0, index: 0, is_over: false };
+    Ok(Layer { crs, len, warnings, ..Layer::of_parts(rows) })
+}
+
+/// The length of a file in bytes, as its header has it.
+fn length(header: &[u8; HEADER]) -> u64 {
+    let words = header[24..].first_chunk().map_or(0, |bytes| u32::from_be_bytes(*bytes));
+    2 * u64::from(words)
+}
+
+/// An index behind its header, and how many places it has; `None` with a warning if it is not complete, as
+/// such a one is no better than none.
+fn index(file: File, warnings: &mut Vec<String>) -> Option<(BufReader<File>, usize)> {
+    let size = file.metadata().map_or(0, |found| found.len());
+    let mut places = BufReader::new(file);
+    let mut header = [0; HEADER];
+    let has_header = places.read_exact(&mut header).is_ok();
+    let expected = if has_header { length(&header) } else { HEADER as u64 };
+    if size < expected {
+        warnings.push(format!(
+            "the index `.shx` has {size} of {expected} bytes and is not used; shapes are read one after the other"
+        ));
+        return None;
+    }
+    Some((places, (size as usize).saturating_sub(HEADER) / 8))
 }
 
 /// The file beside a `.shp` with another extension, in lower or upper case.
@@ -53,6 +78,10 @@ fn beside(path: &Path, extension: &str) -> Option<PathBuf> {
 /// The records of a shapefile.
 struct Shapes {
     shapes: BufReader<File>,
+    /// Where the next record begins, if there is no index.
+    at: u64,
+    /// Where the last record ends by the header.
+    end: u64,
     places: Option<BufReader<File>>,
     table: Option<dbf::Reader<BufReader<File>>>,
     /// Records so far, with those that are deleted.
@@ -67,7 +96,11 @@ impl Iterator for Shapes {
     fn next(&mut self) -> Option<Part<'static>> {
         while !self.is_over {
             let found = match self.record() {
-                Ok(found) => found?,
+                Ok(Some(found)) => found,
+                Ok(None) => {
+                    self.is_over = true;
+                    return None;
+                }
                 Err(source) => {
                     self.is_over = true;
                     return Some(Part::broken(self.index, Error::Interrupted { source }));
@@ -81,14 +114,20 @@ impl Iterator for Shapes {
                     return Some(Part::broken(self.index, Error::Interrupted { source }));
                 }
             };
-            let properties = match row {
+            let mut feature = Feature::numbered(self.index);
+            match row {
                 Some(dbf::Row::Deleted) => continue,
-                Some(dbf::Row::Values(values)) => values,
-                None => Vec::new(),
-            };
-            let index = self.index;
+                Some(dbf::Row::Values(values)) => feature.properties = values,
+                None if self.table.is_some() => feature.notes.push(Note {
+                    code: "values_missing",
+                    text:
+                        "the `.dbf` ends before its row, so it has no values; copy the `.dbf` anew"
+                            .to_owned(),
+                }),
+                None => {}
+            }
             self.index += 1;
-            return Some(part(found, index, properties));
+            return Some(part(found, feature));
         }
         None
     }
@@ -121,30 +160,39 @@ impl Shapes {
             if self.places.is_some() {
                 return Ok(Some(Err("the record lies behind the end of the file".to_owned())));
             }
-            self.is_over = true;
-            let is_end = head.is_empty();
-            return Ok((!is_end).then(|| Err("the file ends in the record".to_owned())));
+            let (at, end) = (self.at, self.end);
+            // Bytes behind the last record are no record.
+            if at >= end {
+                return Ok(None);
+            }
+            return Err(io::Error::new(
+                io::ErrorKind::UnexpectedEof,
+                match head.is_empty() {
+                    true => format!("the `.shp` ends after {at} of {end} bytes"),
+                    false => "the `.shp` ends in the record".to_owned(),
+                },
+            ));
         };
         let size = 2 * u64::from(u32::from_be_bytes([a, b, c, d]));
         let mut content = Vec::new();
         self.shapes.by_ref().take(size).read_to_end(&mut content)?;
         if (content.len() as u64) < size {
-            self.is_over = self.places.is_none();
-            return Ok(Some(Err("the file ends in the record".to_owned())));
+            let why = "the `.shp` ends in the record";
+            return match self.places {
+                Some(_) => Ok(Some(Err(why.to_owned()))),
+                None => Err(io::Error::new(io::ErrorKind::UnexpectedEof, why)),
+            };
         }
+        self.at += 8 + size;
         Ok(Some(Ok(content)))
     }
 }
 
 /// A record as a feature.
-fn part(
-    content: Result<Vec<u8>, String>,
-    index: usize,
-    properties: Vec<(String, Json)>,
-) -> Part<'static> {
+fn part(content: Result<Vec<u8>, String>, mut feature: Feature) -> Part<'static> {
     let size = content.as_ref().map_or(0, Vec::len);
     Part::of_row(size, move || {
-        let mut feature = Feature { index, properties, ..Feature::default() };
+        let index = feature.index;
         match content.and_then(|content| shape(&content, &mut feature)) {
             Ok(()) => Ok(feature),
             Err(why) => {

@@ -13,7 +13,7 @@ pub use geometry::{Geometry, GeometryKind, Place};
 pub use schema::{Cell, Column, Kind, Row, Schema};
 pub use spool::{Rows, Spool};
 
-pub(crate) use names::unique;
+pub(crate) use names::{told_apart, unique};
 
 use crate::{Crs, Format, fgb, gpkg, parquet, shp};
 use std::io;

@@ -361,7 +361,8 @@ impl<'a, 'input> Walker<'a, 'input> {
             Ok(parts) => parts,
             Err(why) => return self.broken(node, &why),
         };
-        if let Some(paint) = fill {
+        // What has no area is filled with nothing, as an open line is by default.
+        if let Some(paint) = fill.filter(|_| !parts.iter().all(Subpath::is_flat)) {
             let contours = parts.iter().map(|part| place.to_page.contour(&part.contour));
             let rule = match style.get("fill-rule") {
                 Some("evenodd") => FillRule::EvenOdd,
@@ -425,12 +426,28 @@ impl<'a, 'input> Walker<'a, 'input> {
             };
             stroke::outline(&parts.iter().map(moved).collect::<Vec<_>>(), &pen)
         } else {
-            stroke::outline(parts, &pen)
-                .map(|outline| outline.iter().map(|c| place.to_page.contour(c)).collect())
+            stroke::outline(parts, &pen).map(|outline| stroke::Outline {
+                contours: outline.contours.iter().map(|c| place.to_page.contour(c)).collect(),
+                ..outline
+            })
         };
         match outline {
-            Ok(contours) => {
-                self.add(node, place, ("stroke", paint), FillRule::NonZero, Ok(contours));
+            // Without caps there is nothing to see of what has no length.
+            Ok(outline) if outline.contours.is_empty() => {}
+            Ok(outline) => {
+                let contours = Ok(outline.contours);
+                self.add(node, place, ("stroke", paint), FillRule::NonZero, contours);
+                if outline.is_solid
+                    && let Some(drawn) = self.drawn.last_mut()
+                {
+                    let name = node.tag_name().name();
+                    drawn.notes.push(Note {
+                        code: "dashes_ignored",
+                        text: format!(
+                            "the dashes of the {name} are too many and are ignored; make them longer"
+                        ),
+                    });
+                }
             }
             Err(why) => self.broken(node, &why),
         }

@@ -1,7 +1,7 @@
 //! The outlines of shapes and paths.
 
 use crate::curves::{Arc, Contour, Segment};
-use medial::geom::Point;
+use medial::geom::{Point, orient2d};
 use std::f64::consts::{FRAC_PI_2, TAU};
 use svgtypes::{PathParser, PathSegment};
 
@@ -16,6 +16,37 @@ pub(super) struct Subpath {
 impl Subpath {
     fn closed(contour: Contour) -> Self {
         Self { contour, closed: true }
+    }
+
+    /// Whether it has no length.
+    pub fn is_point(&self) -> bool {
+        let is_there = |p: Point| p == self.contour.start;
+        self.contour.segments.iter().all(|segment| match segment {
+            Segment::Line(to) => is_there(*to),
+            Segment::Bezier(curve) => curve.control_points().into_iter().all(is_there),
+            Segment::Arc(_) => false,
+        })
+    }
+
+    /// Whether all of it lies on a straight line, so that it encloses nothing.
+    pub fn is_flat(&self) -> bool {
+        let start = self.contour.start;
+        let mut along = None;
+        self.contour.segments.iter().all(|segment| {
+            let points = match segment {
+                Segment::Line(to) => vec![*to],
+                Segment::Bezier(curve) => curve.control_points(),
+                Segment::Arc(_) => return false,
+            };
+            points.into_iter().all(|p| {
+                let second = *along.get_or_insert(p);
+                if second == start {
+                    along = Some(p);
+                    return true;
+                }
+                orient2d(start, second, p) == 0.0
+            })
+        })
     }
 }
 
@@ -70,10 +101,12 @@ pub(super) fn path(data: &str) -> Result<Vec<Subpath>, String> {
     let mut pen = Pen { at: Point::default(), start: Point::default(), open: None };
     // Control points that are mirrored: of the last cubic, and the last quadratic.
     let (mut cubic, mut quadratic) = (None, None);
+    let mut moved = false;
     for segment in PathParser::from(data) {
         let segment = segment.map_err(|error| error.to_string())?;
         let origin = if segment.is_abs() { Point::default() } else { pen.at };
         let place = |x: f64, y: f64| Point::new(origin.x + x, origin.y + y);
+        let is_moved = std::mem::replace(&mut moved, matches!(segment, PathSegment::MoveTo { .. }));
         let (last_cubic, last_quadratic) = (cubic.take(), quadratic.take());
         let mirrored = |p: Option<Point>| p.map_or(pen.at, |p| pen.at + (pen.at - p));
         match segment {
@@ -118,9 +151,9 @@ pub(super) fn path(data: &str) -> Result<Vec<Subpath>, String> {
                 pen.draw(|c| c.segments.extend(parts));
             }
             PathSegment::ClosePath { .. } => {
-                if let Some(contour) = pen.open.take() {
-                    drawn.push(Subpath::closed(contour));
-                }
+                // A place alone is a part without length.
+                let point = is_moved.then(|| Contour::new(pen.at));
+                drawn.extend(pen.open.take().or(point).map(Subpath::closed));
                 pen.at = pen.start;
             }
         }

@@ -4,7 +4,7 @@ use super::shape::Subpath;
 use crate::curves::{Arc, Contour, Segment};
 use kurbo::{BezPath, Cap, Join, PathEl, Stroke, StrokeOpts};
 use medial::geom::Point;
-use std::f64::consts::FRAC_PI_8;
+use std::f64::consts::{FRAC_PI_8, TAU};
 
 /// How a stroke is drawn.
 #[derive(Clone, Debug, PartialEq)]
@@ -23,18 +23,38 @@ const MOST_DASHES: f64 = 1e5;
 /// Largest ratio of a coordinate and the width.
 const MOST_LENGTH: f64 = 1e9;
 
+/// Length of a dash that has none, as a share of the width.
+const DOT_LENGTH: f64 = 1e-6;
+
+/// How far what is an arc of a cap or a join may be off one, as a share of its radius.
+///
+/// It makes up for rounding only.
+const ARC_ERROR: f64 = 1e-9;
+
 /// How far an outline of a stroke may be off, as a share of the box of its line.
 const STROKE_ERROR: f64 = 1e-6;
 
-/// The outline of a stroke along parts of a path, which covers what it goes around (nonzero), or why
-/// there is none.
-pub(super) fn outline(parts: &[Subpath], pen: &Pen) -> Result<Vec<Contour>, String> {
-    if let Some(rings) = rings(parts, pen) {
-        return Ok(rings);
+/// The outline of a stroke.
+#[derive(Debug, Default)]
+pub(super) struct Outline {
+    /// What it covers is what these go around (nonzero).
+    pub contours: Vec<Contour>,
+    /// Whether its dashes are too many to be followed.
+    pub is_solid: bool,
+}
+
+/// The outline of a stroke along parts of a path, or why there is none.
+pub(super) fn outline(parts: &[Subpath], pen: &Pen) -> Result<Outline, String> {
+    if let Some(contours) = rings(parts, pen) {
+        return Ok(Outline { contours, is_solid: false });
     }
     let mut line = BezPath::new();
+    let mut dots = Vec::new();
     for part in parts {
-        append(&mut line, part);
+        match part.is_point() {
+            true => dots.extend(dot(part.contour.start, pen)),
+            false => append(&mut line, part),
+        }
     }
     let (mut most, mut is_finite) = (0.0_f64, true);
     let mut length: f64 = 0.0;
@@ -57,11 +77,50 @@ pub(super) fn outline(parts: &[Subpath], pen: &Pen) -> Result<Vec<Contour>, Stri
         .with_miter_limit(pen.miter_limit)
         .with_caps(pen.cap);
     let period: f64 = pen.dashes.iter().sum();
-    if period > 0.0 && length * pen.dashes.len() as f64 / period <= MOST_DASHES {
-        stroke = stroke.with_dashes(pen.dash_offset, pen.dashes.clone());
+    let is_solid = period > 0.0 && length * pen.dashes.len() as f64 / period > MOST_DASHES;
+    if period > 0.0 && !is_solid {
+        stroke = stroke.with_dashes(pen.dash_offset, dashes(pen));
     }
     let outline = kurbo::stroke(line, &stroke, &StrokeOpts::default(), tolerance);
-    Ok(contours(outline.elements()))
+    let mut contours = contours(outline.elements(), 0.5 * pen.width);
+    contours.extend(dots);
+    Ok(Outline { contours, is_solid })
+}
+
+/// The dashes of a pen; those without length, of which caps make dots, get a little of the gap behind them, as
+/// the other crate draws none.
+fn dashes(pen: &Pen) -> Vec<f64> {
+    let mut dashes = pen.dashes.clone();
+    if pen.cap != Cap::Butt {
+        for pair in dashes.chunks_exact_mut(2) {
+            let length = DOT_LENGTH * pen.width;
+            if pair[0] == 0.0 && pair[1] > length {
+                (pair[0], pair[1]) = (length, pair[1] - length);
+            }
+        }
+    }
+    dashes
+}
+
+/// What a pen draws of a part without length: its caps.
+fn dot(at: Point, pen: &Pen) -> Option<Contour> {
+    let r = 0.5 * pen.width;
+    match pen.cap {
+        Cap::Butt => None,
+        Cap::Round => {
+            let arcs = Arc::around(at, Point::new(r, 0.0), Point::new(0.0, r), 0.0, TAU);
+            let start = arcs[0].start;
+            Some(Contour { start, segments: arcs.into_iter().map(Segment::Arc).collect() })
+        }
+        Cap::Square => {
+            let corner = |x: f64, y: f64| at + Point::new(x * r, y * r);
+            let mut square = Contour::new(corner(-1.0, -1.0));
+            [(1.0, -1.0), (1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0)]
+                .iter()
+                .for_each(|&(x, y)| square.line_to(corner(x, y)));
+            Some(square)
+        }
+    }
 }
 
 /// The outline of full circles, as circles.
@@ -88,7 +147,7 @@ fn rings(parts: &[Subpath], pen: &Pen) -> Option<Vec<Contour>> {
         {
             if radius > 0.0 {
                 let (u, v) = (Point::new(radius, 0.0), Point::new(0.0, radius));
-                let sweep = std::f64::consts::TAU * if inner { -1.0 } else { 1.0 };
+                let sweep = TAU * if inner { -1.0 } else { 1.0 };
                 let arcs = Arc::around(first.centre, u, v, 0.0, sweep);
                 let start = arcs[0].start;
                 let segments = arcs.into_iter().map(Segment::Arc).collect();
@@ -141,8 +200,9 @@ fn points(element: &PathEl) -> Vec<kurbo::Point> {
     }
 }
 
-/// The contours of a path of the other crate.
-fn contours(elements: &[PathEl]) -> Vec<Contour> {
+/// The contours of a path of the other crate, with its cubics for arcs of this radius, which are caps and
+/// joins, as arcs.
+fn contours(elements: &[PathEl], radius: f64) -> Vec<Contour> {
     let place = |p: kurbo::Point| Point::new(p.x, p.y);
     let mut contours: Vec<Contour> = Vec::new();
     for element in elements {
@@ -154,8 +214,57 @@ fn contours(elements: &[PathEl]) -> Vec<Contour> {
             PathEl::MoveTo(_) | PathEl::ClosePath => {}
             PathEl::LineTo(p) => contour.line_to(place(p)),
             PathEl::QuadTo(a, b) => contour.curve_to([place(a), place(b)]),
-            PathEl::CurveTo(a, b, c) => contour.curve_to([place(a), place(b), place(c)]),
+            PathEl::CurveTo(a, b, c) => {
+                let points = [contour.end(), place(a), place(b), place(c)];
+                match arc(points, radius) {
+                    Some(arc) => add_arc(contour, arc),
+                    None => contour.curve_to([points[1], points[2], points[3]]),
+                }
+            }
         }
     }
     contours
+}
+
+/// How far apart centres may be that are one.
+fn slack(at: Point, radius: f64) -> f64 {
+    let rounding = 64.0 * f64::EPSILON * at.x.abs().max(at.y.abs());
+    (ARC_ERROR * radius).max(rounding.min(1e-4 * radius))
+}
+
+/// The arc of a circle that a cubic stands for, if it has the arms for one of this radius.
+fn arc([start, a, b, end]: [Point; 4], radius: f64) -> Option<Arc> {
+    let (first, last) = (a - start, end - b);
+    let (arm, other) = (first.norm(), last.norm());
+    let sweep = first.cross(last).atan2(first.dot(last));
+    let expected = 4.0 / 3.0 * (0.25 * sweep.abs()).tan() * radius;
+    let slack = slack(start, radius);
+    if sweep == 0.0 || (arm - expected).abs() > slack || (other - expected).abs() > slack {
+        return None;
+    }
+    // Short arms tell directions worse.
+    let side = radius.copysign(sweep);
+    let centre = start + first.perp() * (side / arm);
+    let again = end + last.perp() * (side / other);
+    if (centre - again).norm() > slack * (radius / arm).max(1.0) {
+        return None;
+    }
+    let at = start - centre;
+    let (u, v) = (Point::new(radius, 0.0), Point::new(0.0, radius));
+    Some(Arc { centre, u, v, from: at.y.atan2(at.x), sweep, start, end })
+}
+
+/// Adds an arc, which may go on where the last one ends.
+fn add_arc(contour: &mut Contour, arc: Arc) {
+    let slack = slack(arc.start, arc.u.x);
+    if let Some(Segment::Arc(last)) = contour.segments.last_mut()
+        && (last.centre - arc.centre).norm() <= 1e3 * slack
+        && last.sweep * arc.sweep > 0.0
+        && (last.sweep + arc.sweep).abs() < 0.999 * TAU
+    {
+        last.sweep += arc.sweep;
+        last.end = arc.end;
+        return;
+    }
+    contour.segments.push(Segment::Arc(arc));
 }

@@ -145,6 +145,67 @@ fn text_stands_where_its_view_says() {
 }
 
 #[test]
+fn what_has_no_length_is_a_dot_by_its_caps() {
+    let of = |cap: &str, d: &str| {
+        features(&format!(
+            "<path d='{d}' stroke='red' stroke-width='2' stroke-linecap='{cap}' fill='none'/>"
+        ))
+    };
+    for d in ["M12 7h0", "M12 7z", "M12 7L12 7z"] {
+        let round = of("round", d).remove(0).unwrap();
+        assert!((area(&round.polygons).abs() - PI).abs() < 1e-3, "{d}");
+        assert!(round.polygons[0][0].iter().all(|p| (p.x - 12.0).hypot(p.y + 7.0) < 1.0 + 1e-9));
+        let square = of("square", d).remove(0).unwrap();
+        assert_eq!(area(&square.polygons).abs(), 4.0);
+        assert!(of("butt", d).is_empty(), "{d}");
+    }
+}
+
+#[test]
+fn a_fill_without_area_paints_nothing() {
+    let of = |d: &str| -> Vec<String> {
+        let read = features(&format!("<path d='{d}' stroke='red' stroke-width='2'/>"));
+        read.into_iter().map(|read| property(&read.unwrap(), "part")).collect()
+    };
+    assert_eq!(of("M2 2H20"), ["stroke"]);
+    assert_eq!(of("M2 2L2 2L4 3L6 4M9 9C9 10 9 8 9 12"), ["stroke"]);
+    assert_eq!(of("M2 2H20V3"), ["fill", "stroke"]);
+    assert_eq!(of("M2 2a1 1 0 0 1 2 0"), ["fill", "stroke"]);
+    assert!(features("<polyline points='1,1 5,1'/>").is_empty());
+}
+
+#[test]
+fn dashes_that_are_ignored_are_noted() {
+    let of = |dash: &str| one(&format!("<line x2='10' stroke='red' stroke-dasharray='{dash}'/>"));
+    assert!(of("1 3").notes.is_empty());
+    let solid = of("1e-5");
+    assert!((area(&solid.polygons).abs() - 10.0).abs() < 1e-9);
+    assert_eq!(solid.notes[0].code, "dashes_ignored");
+}
+
+#[test]
+fn round_caps_and_joins_are_single_arcs() {
+    let read = one("<path d='M12 17h.01' stroke='red' stroke-width='2' stroke-linecap='round'/>");
+    let curves = read.curves.as_ref().unwrap();
+    let curvatures: Vec<f64> =
+        curves.pieces.iter().map(|piece| piece.start.curvature.abs()).collect();
+    assert_eq!(curvatures.len(), 2, "{curvatures:?}");
+    assert!(curvatures.iter().all(|c| (c - 1.0).abs() < 1e-9), "{curvatures:?}");
+    let read = one(
+        "<path d='M0 0H30V20' stroke='red' stroke-width='2' stroke-linejoin='round' fill='none'/>",
+    );
+    assert_eq!(read.curves.unwrap().pieces.len(), 1, "the outside of the corner");
+}
+
+#[test]
+fn dots_of_dashes_without_length_are_drawn() {
+    let read = one(
+        "<line x1='1' x2='11' stroke='red' stroke-width='2' stroke-dasharray='0 3' stroke-linecap='round'/>",
+    );
+    assert_eq!(read.polygons[0].len(), 4, "at 1, 4, 7 and 10");
+}
+
+#[test]
 fn strokes_are_outlines() {
     let of = |body: &str| {
         let read = one(body);
@@ -265,6 +326,6 @@ fn markers_are_told_once_for_each_line() {
         .map(Result::unwrap)
         .map(|f| f.notes.iter().filter(|note| note.code == "marker_ignored").count())
         .collect();
-    // Of each path the inside, which is filled, comes first.
-    assert_eq!(told, [0, 1, 0, 0, 0]);
+    // The stroke of the one path, the rectangle, the stroke of the other.
+    assert_eq!(told, [1, 0, 0]);
 }
