@@ -104,7 +104,7 @@ impl Run {
     /// A feature that takes longer than it may, and does not notice itself, is given up.
     pub fn each<R: Send + 'static>(
         &mut self,
-        input: &Polygons,
+        input: &str,
         layer: Layer<'static>,
         at_once: NonZeroUsize,
         work: impl Fn(&Feature, &Domain, &mut Stages, &mut Vec<u8>) -> Result<R, Entry>
@@ -116,9 +116,9 @@ impl Run {
     ) -> Result<Status, Failure> {
         let common = self.common;
         let progress = Progress::new(common.progress, common.quiet, layer.len);
-        let mut report = Report { input: input.name.clone(), ..Report::default() };
+        let mut report = Report { input: input.to_owned(), ..Report::default() };
         for warning in &layer.warnings {
-            progress.warning(&format!("{}: {warning}", input.name));
+            progress.warning(&format!("{input}: {warning}"));
         }
         let find = Arc::new(Mutex::new(Duration::ZERO));
         // Bytes of earlier batches, for their memory: it grows once and stays warm.
@@ -194,6 +194,17 @@ impl Run {
         let at_once = threads.min(features);
         let each = NonZeroUsize::new(threads.get() / at_once).unwrap_or(NonZeroUsize::MIN);
         (at_once, each)
+    }
+
+    /// Ends a run whose result, of so many features, is written as a whole.
+    pub fn done(mut self, input: &str, n_features: usize) -> Result<Status, Failure> {
+        if let Some(output) = self.report.take() {
+            let (input, done) = (input.to_owned(), n_features);
+            let report = Report { input, n_features, done, ..Report::default() };
+            output.whole(report.text().as_bytes())?;
+        }
+        self.finish()?;
+        Ok(Status::Done)
     }
 
     /// Writes the timings, if they are asked for.
@@ -277,7 +288,7 @@ impl<'p, I: Iterator<Item = Part<'p>>> Iterator for Batches<I> {
 /// format say so, the first feature has to agree.
 fn told_of_degrees<'a>(
     layer: Layer<'a>,
-    input: &Polygons,
+    input: &str,
     is_metric: bool,
     progress: &Progress,
 ) -> impl Iterator<Item = Part<'a>> + Send + use<'a> {
@@ -293,9 +304,8 @@ fn told_of_degrees<'a>(
         }
         if are_degrees {
             progress.warning(&format!(
-                "{}: the coordinates are degrees ({crs}), and so are lengths, widths and radii; \
-                 degrees of longitude are shorter than those of latitude: --metric measures in metres",
-                input.name
+                "{input}: the coordinates are degrees ({crs}), and so are lengths, widths and radii; \
+                 degrees of longitude are shorter than those of latitude: --metric measures in metres"
             ));
         }
     }
@@ -427,12 +437,12 @@ fn box_of(grid: &Grid) -> Vec<Vec<Vec<Point>>> {
 /// Prints and reports what happened to a feature; gives its result.
 fn tell<R>(
     outcome: Outcome<R>,
-    input: &Polygons,
+    input: &str,
     progress: &Progress,
     report: &mut Report,
 ) -> Option<R> {
     let Outcome { index, id, warnings, entries, result, .. } = outcome;
-    let place = || format!("{}: feature {index}", input.name);
+    let place = || format!("{input}: feature {index}");
     for warning in warnings {
         progress.warning(&format!("{}: {warning}", place()));
     }
@@ -450,14 +460,14 @@ fn tell<R>(
     result
 }
 
-fn summary(report: &Report, input: &Polygons, progress: &Progress) -> Status {
+fn summary(report: &Report, input: &str, progress: &Progress) -> Status {
     let Report { n_features, left_out, .. } = *report;
     if n_features == 0 {
-        progress.warning(&format!("{}: there are no features", input.name));
+        progress.warning(&format!("{input}: there are no features"));
     }
     if left_out == 0 {
         return Status::Done;
     }
-    progress.warning(&format!("{}: {left_out} of {n_features} features left out", input.name));
+    progress.warning(&format!("{input}: {left_out} of {n_features} features left out"));
     if report.done == 0 { Status::NoResult } else { Status::LeftOut }
 }
