@@ -32,6 +32,8 @@ pub struct Run {
     pub tolerance: Option<f64>,
     /// Whether the command asks nothing of images but their masks.
     pub masks_alone: bool,
+    /// Whether the command can measure degrees in metres.
+    pub knows_metric: bool,
     report: Option<Output>,
     timings: Option<Output>,
 }
@@ -61,6 +63,7 @@ impl Run {
             stages: Stages::default(),
             tolerance: None,
             masks_alone: false,
+            knows_metric: true,
             report: create(&common.report)?,
             timings: create(&common.timings)?,
         })
@@ -124,8 +127,9 @@ impl Run {
         // Bytes of earlier batches, for their memory: it grows once and stays warm.
         let spare = Arc::new(Mutex::new(Vec::new()));
         let taken = Arc::clone(&spare);
-        let parts =
-            timed(&mut locked(&find), || told_of_degrees(layer, input, common.metric, &progress));
+        let parts = timed(&mut locked(&find), || {
+            told_of_degrees(layer, input, common.metric, self.knows_metric, &progress)
+        });
         let limit = common.limit().map(|limit| Limit {
             after: limit.saturating_add(GRACE),
             instead: |number| (vec![Outcome::given_up(number)], Vec::new()),
@@ -290,6 +294,7 @@ fn told_of_degrees<'a>(
     layer: Layer<'a>,
     input: &str,
     is_metric: bool,
+    knows_metric: bool,
     progress: &Progress,
 ) -> impl Iterator<Item = Part<'a>> + Send + use<'a> {
     let crs = layer.crs.clone().filter(|crs| crs.is_geographic() && !is_metric);
@@ -303,9 +308,14 @@ fn told_of_degrees<'a>(
             first = read.map(Part::from);
         }
         if are_degrees {
+            let way = if knows_metric {
+                "--metric measures in metres"
+            } else {
+                "for metres, bring it into a plane first"
+            };
             progress.warning(&format!(
                 "{input}: the coordinates are degrees ({crs}), and so are lengths, widths and radii; \
-                 degrees of longitude are shorter than those of latitude: --metric measures in metres"
+                 degrees of longitude are shorter than those of latitude: {way}"
             ));
         }
     }

@@ -62,6 +62,7 @@ pub fn run(args: &'static ImageArgs) -> Result<Status, Failure> {
     let layers = args.layers();
     let format = checked_format(args, &layers)?;
     let mut run = Run::new(kept(args.run.common()))?;
+    run.knows_metric = false;
     let is_picture = matches!(format, Format::Svg | Format::Png);
     let parted = regions::parted(&args.segmentation, &args.input, &mut run, is_picture)?;
     let objects = timed(&mut run.stages.operations, || parted.chosen(&args.choice))?;

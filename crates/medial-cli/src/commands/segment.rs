@@ -20,6 +20,7 @@ const COLUMNS: &[&str] =
 pub fn run(args: &'static SegmentArgs) -> Result<Status, Failure> {
     regions::check(&args.segmentation)?;
     let mut run = Run::new(kept(args.run.common()))?;
+    run.knows_metric = false;
     let plan = Plan {
         target: &args.target,
         thing: "regions",
