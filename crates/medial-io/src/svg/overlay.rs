@@ -66,8 +66,8 @@ impl LineStyle {
 }
 
 impl Overlay {
-    /// What lies in a rectangle of the plane: the pixels that it meets, and the layers, which are cut off at its sides
-    /// when they are drawn.
+    /// What lies in a rectangle of the plane: the pixels that it meets, and the lines whose boxes these meet, which are
+    /// cut off where the pixels end when they are drawn.
     ///
     /// `None` if no pixel does.
     #[must_use]
@@ -90,6 +90,16 @@ impl Overlay {
         self.colours = (top..bottom).flat_map(row).collect();
         let origin = self.grid.corner(left, top);
         self.grid = Grid { origin, columns: right - left, rows: bottom - top, ..self.grid };
+        let end = self.grid.corner(self.grid.columns, self.grid.rows);
+        let seen = Rect::EMPTY.with(origin).with(end);
+        let is_seen = |line: &Vec<Point>| {
+            let around = line.iter().copied().fold(Rect::EMPTY, Rect::with);
+            around.min.x <= seen.max.x
+                && seen.min.x <= around.max.x
+                && around.min.y <= seen.max.y
+                && seen.min.y <= around.max.y
+        };
+        self.layers.iter_mut().for_each(|layer| layer.lines.retain(is_seen));
         Some(self)
     }
 
@@ -245,6 +255,10 @@ mod tests {
         let part = overlay().within(window).unwrap();
         assert_eq!((part.grid.columns, part.grid.origin), (1, Point::new(10.0, 5.0)));
         assert_eq!(part.colours, [[1.0, 0.0, 0.0]]);
+        assert_eq!(part.layers[0].lines.len(), 1);
+        let mut other = overlay();
+        other.layers[0].lines.push(vec![Point::new(11.5, 4.5), Point::new(12.0, 4.5)]);
+        assert_eq!(other.within(window).unwrap().layers[0].lines, part.layers[0].lines);
         let beside = Rect { min: Point::new(0.0, 0.0), max: Point::new(1.0, 1.0) };
         assert!(overlay().within(beside).is_none());
     }
