@@ -37,6 +37,21 @@ impl Progress {
         Self { bar, lines, quiet }
     }
 
+    /// That something is being done which is not counted.
+    pub fn working(when: When, quiet: bool, what: &'static str) -> Self {
+        let progress = Self::new(when, quiet, None);
+        if let Ok(style) = ProgressStyle::with_template("{spinner} {msg}, {elapsed}") {
+            progress.bar.set_style(style);
+        }
+        progress.bar.set_message(what);
+        if progress.lines.is_some() {
+            line(&format!("progress: {what}"));
+        } else if !progress.bar.is_hidden() {
+            progress.bar.enable_steady_tick(Duration::from_millis(100));
+        }
+        Self { lines: None, ..progress }
+    }
+
     pub fn step(&self) {
         self.bar.inc(1);
         if let Some(last) = &self.lines

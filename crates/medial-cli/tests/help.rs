@@ -24,6 +24,7 @@ fn the_examples_of_every_command_work() {
         "compare",
         "compress",
         "segment",
+        "image",
     ] {
         let help = medial(&[command, "--help"]);
         assert_eq!((help.status, help.errors.as_str()), (Some(0), ""));

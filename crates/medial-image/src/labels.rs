@@ -1,4 +1,4 @@
-use crate::field::Field;
+use crate::field::{Field, squared};
 use medial::raster::{Grid, Mask};
 
 /// A number for each pixel: that of the region that it is in.
@@ -22,6 +22,14 @@ pub struct Region {
     pub first: [u32; 2],
     /// The last column and the last row.
     pub last: [u32; 2],
+}
+
+impl Region {
+    /// How far a value is from their mean.
+    #[must_use]
+    pub fn distance(&self, value: [f32; 3]) -> f32 {
+        squared(self.mean, value).sqrt()
+    }
 }
 
 /// The first number of a set.

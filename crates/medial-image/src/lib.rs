@@ -3,7 +3,8 @@
 //! A [`Field`] gives each pixel three numbers between which distances mean something, as L\*u\*v\* of a colour.
 //! [`feature_space`], [`mean_shift`], [`thresholds`] and [`near_colours`] turn it into [`Labels`], one number for
 //! each pixel, that of the connected region that it is in; regions are [`Mask`](medial::raster::Mask)s and
-//! polygons.
+//! polygons. A [`Selection`] of them, by points or as a whole, makes [`Objects`], whose [`Borders`] can be
+//! simplified, and which can be compared with those of another image ([`Changes`]).
 //!
 //! ```
 //! use medial::raster::Grid;
@@ -21,6 +22,8 @@
 //! # Ok::<(), medial_image::FieldError>(())
 //! ```
 
+mod borders;
+mod changes;
 mod colour;
 mod feature_space;
 mod field;
@@ -28,13 +31,20 @@ mod histogram;
 mod labels;
 mod mean_shift;
 mod merging;
+mod objects;
+mod pixels;
 mod polygons;
 mod random;
+mod selection;
 mod simple;
 
+pub use borders::Borders;
+pub use changes::{Change, ChangeError, Changes, Part};
 pub use colour::{luv, srgb};
 pub use feature_space::{Analysis, Resolution, feature_space};
 pub use field::{Field, FieldError};
 pub use labels::{Labels, Region};
 pub use mean_shift::{Filter, filtered, mean_shift};
+pub use objects::{Object, Objects};
+pub use selection::{Action, Click, Selection, SelectionError};
 pub use simple::{near_colours, thresholds};

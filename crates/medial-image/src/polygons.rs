@@ -1,11 +1,8 @@
 //! Regions as polygons whose borders are the same points on both sides.
 
 use crate::labels::Labels;
+use crate::pixels::{Pixels, Window};
 use medial::geom::Point;
-use medial::raster::{Grid, Mask, outline};
-
-/// Polygons of a region: each a list of rings, the outer one first.
-type Polygons = Vec<Vec<Vec<Point>>>;
 
 impl Labels {
     /// The polygons of a region along the sides of its pixels, in the plane of the grid.
@@ -22,54 +19,21 @@ impl Labels {
 
     /// The polygons of every region, in their order. Linear in pixels and boxes of regions.
     pub fn all_polygons(&self) -> impl Iterator<Item = Vec<Vec<Vec<Point>>>> + '_ {
-        // Pixels by region.
-        let mut starts = vec![0_u64; self.len() as usize + 1];
-        let in_some = |label: &u32| *label != Self::NONE;
-        for &label in self.labels().iter().filter(|label| in_some(label)) {
-            starts[label as usize + 1] += 1;
-        }
-        for k in 1..starts.len() {
-            starts[k] += starts[k - 1];
-        }
-        let mut next = starts.clone();
-        let mut pixels = vec![0_u64; starts.last().map_or(0, |&n| n as usize)];
-        for (k, &label) in (0..).zip(self.labels()).filter(|(_, label)| in_some(label)) {
-            pixels[next[label as usize] as usize] = k;
-            next[label as usize] += 1;
-        }
-        (0..self.len() as usize)
-            .map(move |k| self.polygons_of(&pixels[starts[k] as usize..starts[k + 1] as usize]))
+        let pixels = Pixels::by_number(self.labels(), self.len());
+        (0..self.len()).map(move |region| self.polygons_of(pixels.of(region)))
     }
 
     /// The polygons of pixels, given by their numbers in order.
-    fn polygons_of(&self, pixels: &[u64]) -> Polygons {
-        let columns = u64::from(self.grid().columns);
-        let place = |pixel: &u64| [(pixel % columns) as u32, (pixel / columns) as u32];
-        let mut low = [u32::MAX; 2];
-        let mut high = [0; 2];
-        for at in pixels.iter().map(place) {
-            for axis in 0..2 {
-                low[axis] = low[axis].min(at[axis]);
-                high[axis] = high[axis].max(at[axis] + 1);
-            }
-        }
-        // Whole numbers in the box, so that corners are those of the grid, whatever box they are seen from.
-        let window = Grid {
-            cell: [1.0, 1.0],
-            ..Grid::of_image(high[0].saturating_sub(low[0]), high[1].saturating_sub(low[1]))
-        };
-        let Ok(mut mask) = Mask::empty(window) else { return Vec::new() };
-        pixels.iter().map(place).for_each(|[x, y]| mask.put(x - low[0], y - low[1], true));
-        let corner = |p: &Point| self.grid().corner(low[0] + p.x as u32, low[1] + p.y as u32);
-        let ring = |ring: &Vec<Point>| ring.iter().map(corner).collect();
-        let polygon = |rings: &Vec<Vec<Point>>| rings.iter().map(ring).collect();
-        outline(&mask).iter().map(polygon).collect()
+    fn polygons_of(&self, pixels: &[u64]) -> Vec<Vec<Vec<Point>>> {
+        let window = Window::around(pixels, self.grid().columns);
+        window.map_or_else(Vec::new, |window| window.polygons(self.grid()))
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use medial::raster::Grid;
 
     fn area(ring: &[Point]) -> f64 {
         let pairs = ring.iter().zip(ring.iter().cycle().skip(1));

@@ -162,6 +162,16 @@ impl<'a> Layer<'a> {
         Self::of_parts(features.map(Part::of_read))
     }
 
+    /// A layer of so many features that are made where they are found.
+    #[must_use]
+    pub fn of_features(
+        crs: Option<Crs>,
+        features: impl ExactSizeIterator<Item = Feature> + Send + 'a,
+    ) -> Self {
+        let len = Some(features.len());
+        Self { crs, len, ..Self::new(features.map(Ok)) }
+    }
+
     /// A layer of the features in these slices of `text`, in their order.
     pub(crate) fn of_slices(
         text: &'a str,

@@ -42,6 +42,7 @@ mod text;
 mod samples;
 
 pub mod axis_document;
+pub mod clicks;
 pub mod csv;
 pub mod dxf;
 pub mod fgb;

@@ -38,6 +38,8 @@ pub enum Shape {
     Line(Vec<Point>),
     /// A line through these points, each with a third coordinate.
     LineInSpace(Vec<(Point, f64)>),
+    /// Several lines.
+    Lines(Vec<Vec<Point>>),
     /// Polygons, each of rings that are not closed, the outer one first.
     Polygons(Vec<Vec<Vec<Point>>>),
 }
@@ -204,6 +206,10 @@ fn geojson(
             Shape::LineInSpace(points) => {
                 out.extend_from_slice(b"{\"type\":\"LineString\",\"coordinates\":");
                 list(out, points, |out, &(p, z)| position(out, p, Some(z)));
+            }
+            Shape::Lines(lines) => {
+                out.extend_from_slice(b"{\"type\":\"MultiLineString\",\"coordinates\":");
+                list(out, lines, |out, line| list(out, line, |out, &p| position(out, p, None)));
             }
             Shape::Polygons(polygons) => match &polygons[..] {
                 [polygon] => {

@@ -7,10 +7,11 @@ use medial_io::Feature;
 use std::num::NonZeroU32;
 
 /// Who computes an axis, for commands that know sampled ones.
-#[derive(Debug, Args)]
+#[derive(Clone, Debug, Args)]
 pub struct ChosenEngine {
     /// Who computes the axis: path_tracing, divide_and_conquer, raster_transform, ridge_following,
-    /// brushfire, delaunay_dual; by default path_tracing for polygons, raster_transform for images
+    /// brushfire, delaunay_dual; by default path_tracing for polygons, raster_transform for masks, delaunay_dual for
+    /// colour images
     #[arg(long, value_name = "NAME", value_parser = engine)]
     pub engine: Option<Engine>,
     /// The size of cells into which polygons are put by engines that sample, in units of the input; by

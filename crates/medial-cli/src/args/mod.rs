@@ -4,6 +4,7 @@ mod centerline;
 mod clearance;
 mod compress;
 mod engine;
+mod image;
 mod offset;
 mod pruning;
 mod segment;
@@ -15,9 +16,10 @@ pub use centerline::{CenterlineArgs, Extend, Purpose};
 pub use clearance::ClearanceArgs;
 pub use compress::CompressArgs;
 pub use engine::{ChosenEngine, engine_for};
+pub use image::{Choice, ImageArgs, Layer as ImageLayer};
 pub use offset::OffsetArgs;
 pub use pruning::{Prune, Pruning};
-pub use segment::{Method as SegmentMethod, SegmentArgs};
+pub use segment::{ImageRun, Method as SegmentMethod, SegmentArgs, Segmentation};
 pub use walls::WallsArgs;
 
 use crate::failure::{Failure, Status};
@@ -87,6 +89,9 @@ pub enum Command {
     Compress(CompressArgs),
     /// Part colour images into regions, as polygons
     Segment(SegmentArgs),
+    /// Compute borders, Delaunay graphs, their duals and the medial axes of regions of colour images, or what
+    /// became of regions
+    Image(ImageArgs),
 }
 
 /// Where results go.

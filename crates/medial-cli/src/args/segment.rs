@@ -1,4 +1,4 @@
-use super::{Target, count, positive};
+use super::{Common, OnError, Target, When, count, positive};
 use clap::{Args, ValueEnum};
 use medial_image::Resolution;
 use medial_io::Format;
@@ -20,7 +20,7 @@ Examples:
   medial segment fixtures/images/horse.png --method feature-space --min-region 20 --to csv
   medial segment fixtures/images/horse.png --method mean-shift -o smooth.png --labels n.tiff
 
-Exit status: 0 all done; 1 no usable result; 2 wrong usage.";
+Exit status: 0 all done; 1 no usable result; 2 wrong usage; 3 some regions were left out.";
 
 /// Arguments of `medial segment`.
 #[derive(Debug, Args)]
@@ -30,6 +30,18 @@ pub struct SegmentArgs {
     pub input: PathBuf,
     #[command(flatten)]
     pub target: Target,
+    #[command(flatten)]
+    pub segmentation: Segmentation,
+    /// Write to FILE, as a TIFF image of 32 bits, the number of each pixel's region from 1 on; 0 for no data
+    #[arg(long, value_name = "FILE")]
+    pub labels: Option<PathBuf>,
+    #[command(flatten)]
+    pub run: ImageRun,
+}
+
+/// How an image is parted into regions.
+#[derive(Debug, Args)]
+pub struct Segmentation {
     /// How pixels come into regions: feature_space, mean_shift, threshold, colours
     #[arg(long, value_name = "NAME", default_value = "feature_space", value_parser = method)]
     pub method: Method,
@@ -55,28 +67,70 @@ pub struct SegmentArgs {
     /// Colours of colours, as RRGGBB, separated by commas
     #[arg(long, value_name = "RRGGBB,…", value_delimiter = ',', value_parser = colour)]
     pub color: Vec<[u8; 3]>,
-    /// How far from its colour a pixel may be, in L*u*v*; by default 20
+    /// How far from its colour a pixel of colours may be, in L*u*v*; by default 20
     #[arg(long, value_name = "D", value_parser = positive)]
-    pub tolerance: Option<f64>,
+    pub color_tolerance: Option<f64>,
     /// Bands to look at, up to three, by their numbers from 1, separated by commas; by default the colours, or
     /// the first three
     #[arg(long, value_name = "N,N", value_delimiter = ',', value_parser = count)]
     pub bands: Vec<NonZeroUsize>,
-    /// Write to FILE, as a TIFF image of 32 bits, the number of each pixel's region from 1 on; 0 for no data
-    #[arg(long, value_name = "FILE")]
-    pub labels: Option<PathBuf>,
+}
+
+/// What commands on colour images say of a run.
+#[derive(Debug, Args)]
+pub struct ImageRun {
     /// Format of the image: png, jpeg, tiff; by default that of the extension, else told by the content
     #[arg(long, value_name = "FORMAT")]
     pub from: Option<Format>,
+    /// Leave out regions that take longer, in seconds, and give up an image that takes longer to be parted
+    #[arg(long, value_name = "S", value_parser = positive, allow_negative_numbers = true)]
+    pub max_seconds: Option<f64>,
+    /// What to do about a bad region
+    #[arg(long, value_name = "WHAT", default_value = "skip")]
+    pub on_error: OnError,
     /// Number of threads; by default one for each processor
     #[arg(long, value_name = "N")]
     pub threads: Option<NonZeroUsize>,
+    /// Write to FILE, as JSON, what was refused, and how well the borders are sampled
+    #[arg(long, value_name = "FILE")]
+    pub report: Option<PathBuf>,
     /// Write to FILE, as JSON, how long each stage took
     #[arg(long, value_name = "FILE")]
     pub timings: Option<PathBuf>,
-    /// Print errors only
+    /// Show the progress on standard error; auto: on a terminal
+    #[arg(long, value_name = "WHEN", default_value = "auto")]
+    pub progress: When,
+    /// Print errors only, no warnings
     #[arg(short, long)]
     pub quiet: bool,
+}
+
+impl ImageRun {
+    /// The same, as commands on polygons say it.
+    pub fn common(&self) -> Common {
+        let Self { from, max_seconds, on_error, threads, progress, quiet, .. } = *self;
+        Common {
+            from,
+            layer: None,
+            text: None,
+            font: Vec::new(),
+            threshold: None,
+            invert: false,
+            metric: false,
+            strict: false,
+            regroup: false,
+            fill: None,
+            dissolve: false,
+            max_vertices: None,
+            max_seconds,
+            on_error,
+            threads,
+            report: self.report.clone(),
+            timings: self.timings.clone(),
+            progress,
+            quiet,
+        }
+    }
 }
 
 /// How pixels come into regions.
@@ -119,7 +173,7 @@ impl From<Fineness> for Resolution {
     }
 }
 
-fn colour(word: &str) -> Result<[u8; 3], String> {
+pub(super) fn colour(word: &str) -> Result<[u8; 3], String> {
     let digits = word.strip_prefix('#').unwrap_or(word);
     let number = u32::from_str_radix(digits, 16).ok().filter(|_| digits.len() == 6);
     let number = number.ok_or("a colour is six hexadecimal digits, as ff8000")?;

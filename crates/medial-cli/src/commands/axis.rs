@@ -90,7 +90,7 @@ fn run_on(args: &'static AxisArgs, documents: Documents) -> Result<Status, Failu
     let mut write = std::time::Duration::ZERO;
     let (at_once, threads) = run.threads(&layer);
     let status = run.each(
-        input,
+        &input.name,
         layer,
         at_once,
         move |feature, domain, stages, bytes| {
@@ -225,7 +225,7 @@ pub fn traced(
 }
 
 /// The dual graph of a feature on a side.
-fn dual<'a>(
+pub fn dual<'a>(
     chosen: &ChosenEngine,
     region: &Region,
     side: Side,

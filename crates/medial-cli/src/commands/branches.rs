@@ -294,7 +294,7 @@ fn each<R: Send + 'static>(
     let (at_once, threads) = run.threads(&layer);
     let mut time = Duration::ZERO;
     let status = run.each(
-        input,
+        &input.name,
         layer,
         at_once,
         move |feature, domain, stages, bytes| {

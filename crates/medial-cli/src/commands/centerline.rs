@@ -32,7 +32,7 @@ pub fn run(args: &'static CenterlineArgs) -> Result<Status, Failure> {
     let (at_once, threads) = run.threads(&layer);
     let z = args.z.is_some();
     let status = run.each(
-        input,
+        &input.name,
         layer,
         at_once,
         move |feature, domain, stages, bytes| {

@@ -31,7 +31,7 @@ pub fn run(args: &'static CheckArgs) -> Result<Status, Failure> {
     let mut n_defects = 0;
     let mut seen = BTreeSet::new();
     let status = run.each(
-        input,
+        &input.name,
         layer,
         at_once,
         move |feature, domain, stages, bytes| {

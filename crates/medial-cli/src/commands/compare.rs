@@ -19,7 +19,7 @@ pub fn run(args: &'static CompareArgs) -> Result<Status, Failure> {
     let mut totals = Totals::default();
     let mut begun = false;
     let status = run.each(
-        input,
+        &input.name,
         layer,
         // Two at once would share the memory and the processor whose use is measured.
         NonZeroUsize::MIN,

@@ -38,7 +38,7 @@ pub fn run(args: &'static CompressArgs) -> Result<Status, Failure> {
     let mut totals = Totals::default();
     let mut begun = false;
     let status = run.each(
-        input,
+        &input.name,
         layer,
         at_once,
         move |feature, domain, stages, bytes| {

@@ -32,6 +32,8 @@ pub struct Run {
     pub tolerance: Option<f64>,
     /// Whether the command asks nothing of images but their masks.
     pub masks_alone: bool,
+    /// Whether the command can measure degrees in metres.
+    pub knows_metric: bool,
     report: Option<Output>,
     timings: Option<Output>,
 }
@@ -59,6 +61,7 @@ impl Run {
             stages: Stages::default(),
             tolerance: None,
             masks_alone: false,
+            knows_metric: true,
             report: create(&common.report)?,
             timings: create(&common.timings)?,
         })
@@ -102,7 +105,7 @@ impl Run {
     /// A feature that takes longer than it may, and does not notice itself, is given up.
     pub fn each<R: Send + 'static>(
         &mut self,
-        input: &Polygons,
+        input: &str,
         layer: Layer<'static>,
         at_once: NonZeroUsize,
         work: impl Fn(&Feature, &Domain, &mut Stages, &mut Vec<u8>) -> Result<R, Entry>
@@ -115,22 +118,23 @@ impl Run {
         let common = self.common;
         let progress = Progress::new(common.progress, common.quiet, layer.len);
         let mut report = Report {
-            input: input.name.clone(),
+            input: input.to_owned(),
             is_wanted: common.report.is_some(),
             ..Report::default()
         };
         for warning in &layer.warnings {
-            progress.warning(&format!("{}: {warning}", input.name));
+            progress.warning(&format!("{input}: {warning}"));
         }
         if common.metric {
-            Metric::check(layer.crs.as_ref(), &input.name)?;
+            Metric::check(layer.crs.as_ref(), input)?;
         }
         let find = Arc::new(Mutex::new(Duration::ZERO));
         // Bytes of earlier batches, for their memory: it grows once and stays warm.
         let spare = Arc::new(Mutex::new(Vec::new()));
         let taken = Arc::clone(&spare);
-        let parts =
-            timed(&mut locked(&find), || told_of_degrees(layer, input, common.metric, &progress));
+        let parts = timed(&mut locked(&find), || {
+            told_of_degrees(layer, input, common.metric, self.knows_metric, &progress)
+        });
         let limit = common.limit().map(|limit| Limit {
             after: limit.saturating_add(GRACE),
             instead: |number| (vec![Outcome::given_up(number)], Vec::new()),
@@ -199,6 +203,17 @@ impl Run {
         let at_once = threads.min(features);
         let each = NonZeroUsize::new(threads.get() / at_once).unwrap_or(NonZeroUsize::MIN);
         (at_once, each)
+    }
+
+    /// Ends a run whose result, of so many features, is written as a whole.
+    pub fn done(mut self, input: &str, n_features: usize) -> Result<Status, Failure> {
+        if let Some(output) = self.report.take() {
+            let (input, done) = (input.to_owned(), n_features);
+            let report = Report { input, n_features, done, ..Report::default() };
+            output.whole(report.text().as_bytes())?;
+        }
+        self.finish()?;
+        Ok(Status::Done)
     }
 
     /// Writes the timings, if they are asked for.
@@ -282,8 +297,9 @@ impl<'p, I: Iterator<Item = Part<'p>>> Iterator for Batches<I> {
 /// format say so, the first feature has to agree.
 fn told_of_degrees<'a>(
     layer: Layer<'a>,
-    input: &Polygons,
+    input: &str,
     is_metric: bool,
+    knows_metric: bool,
     progress: &Progress,
 ) -> impl Iterator<Item = Part<'a>> + Send + use<'a> {
     let crs = layer.crs.clone().filter(|_| !is_metric);
@@ -298,14 +314,14 @@ fn told_of_degrees<'a>(
             first = read.map(Part::from);
         }
         if are_degrees {
+            let way = if knows_metric && unit == "degree" {
+                "--metric measures in metres"
+            } else {
+                "for metres, bring it into a plane first"
+            };
             progress.warning(&format!(
-                "{}: the coordinates are {unit}s ({crs}), and so are lengths, widths and radii; \
-                 {unit}s of longitude are shorter than those of latitude: {}",
-                input.name,
-                match unit.as_str() {
-                    "degree" => "--metric measures in metres",
-                    _ => "project them first",
-                }
+                "{input}: the coordinates are {unit}s ({crs}), and so are lengths, widths and radii; \
+                 {unit}s of longitude are shorter than those of latitude: {way}"
             ));
         }
     }
@@ -437,12 +453,12 @@ fn box_of(grid: &Grid) -> Vec<Vec<Vec<Point>>> {
 /// Prints and reports what happened to a feature; gives its result.
 fn tell<R>(
     outcome: Outcome<R>,
-    input: &Polygons,
+    input: &str,
     progress: &Progress,
     report: &mut Report,
 ) -> Option<R> {
     let Outcome { index, id, warnings, entries, result, .. } = outcome;
-    let place = || format!("{}: feature {index}", input.name);
+    let place = || format!("{input}: feature {index}");
     for warning in warnings {
         progress.warning(&format!("{}: {warning}", place()));
     }
@@ -460,14 +476,14 @@ fn tell<R>(
     result
 }
 
-fn summary(report: &Report, input: &Polygons, progress: &Progress) -> Status {
+fn summary(report: &Report, input: &str, progress: &Progress) -> Status {
     let Report { n_features, left_out, .. } = *report;
     if n_features == 0 {
-        progress.warning(&format!("{}: there are no features", input.name));
+        progress.warning(&format!("{input}: there are no features"));
     }
     if left_out == 0 {
         return Status::Done;
     }
-    progress.warning(&format!("{}: {left_out} of {n_features} features left out", input.name));
+    progress.warning(&format!("{input}: {left_out} of {n_features} features left out"));
     if report.done == 0 { Status::NoResult } else { Status::LeftOut }
 }

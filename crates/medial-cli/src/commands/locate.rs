@@ -22,7 +22,7 @@ pub fn run(args: &'static LocateArgs) -> Result<Status, Failure> {
     let mut write = Duration::ZERO;
     let (at_once, _) = run.threads(&layer);
     let status = run.each(
-        input,
+        &input.name,
         layer,
         at_once,
         move |feature, domain, stages, bytes| {

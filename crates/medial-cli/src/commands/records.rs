@@ -12,7 +12,7 @@ use medial::axis::Engine;
 use medial::domain::Domain;
 use medial::engine;
 use medial_io::record::{self, Record};
-use medial_io::{Crs, Feature, Format};
+use medial_io::{Crs, Feature, Format, Layer};
 use std::io::IsTerminal as _;
 use std::path::Path;
 use std::time::Duration;
@@ -67,8 +67,11 @@ impl Plan {
             let (thing, names) = (self.thing, names.join(", "));
             return Err(Failure::Usage(format!("{thing} are written as {names}, not as {format}")));
         }
-        if format == Format::Wkb && self.file().is_none() && std::io::stdout().is_terminal() {
-            return Err(Failure::Usage("a terminal shows no wkb; name a file with -o".to_owned()));
+        let is_binary = matches!(format, Format::Wkb | Format::Png);
+        if is_binary && self.file().is_none() && std::io::stdout().is_terminal() {
+            return Err(Failure::Usage(format!(
+                "a terminal shows no {format}; name a file with -o"
+            )));
         }
         needs_file(format, self.file())?;
         Ok(format)
@@ -121,8 +124,24 @@ impl Plan {
         + 'static,
         draw: impl FnOnce(Vec<P>, &mut Stages) -> Result<Vec<u8>, Failure>,
     ) -> Result<Status, Failure> {
-        let format = self.format()?;
+        self.format()?;
         let layer = timed(&mut run.stages.read, || input.layer())?;
+        self.run_on(run, &input.name, layer, work, draw)
+    }
+
+    /// The same for the features of a layer that comes from an input with this name.
+    pub fn run_on<P: Send + 'static>(
+        &self,
+        mut run: Run,
+        input: &str,
+        layer: Layer<'static>,
+        work: impl Fn(&Feature, &Domain, &mut Stages, &engine::Options<'_>) -> Result<Found<P>, Entry>
+        + Send
+        + Sync
+        + 'static,
+        draw: impl FnOnce(Vec<P>, &mut Stages) -> Result<Vec<u8>, Failure>,
+    ) -> Result<Status, Failure> {
+        let format = self.format()?;
         let mut sink = self.sink(format, layer.crs.clone(), layer.units, run.common.quiet)?;
         let mut parts = Vec::new();
         let mut write = Duration::ZERO;
@@ -140,6 +159,10 @@ impl Plan {
                         bytes.extend_from_slice(text.as_bytes());
                         return Ok(None);
                     }
+                    Found::Bytes(found) => {
+                        bytes.extend_from_slice(&found);
+                        return Ok(None);
+                    }
                     Found::Part(part) => return Ok(Some(part)),
                 };
                 timed(&mut stages.write, || {
@@ -153,7 +176,7 @@ impl Plan {
         )?;
         if status != Status::NoResult {
             // A picture is one without features as well.
-            let is_whole = matches!(format, Format::Svg | Format::GCode);
+            let is_whole = matches!(format, Format::Svg | Format::Png | Format::GCode);
             let drawn = if is_whole || !parts.is_empty() {
                 draw(parts, &mut run.stages)?
             } else {
@@ -180,6 +203,8 @@ pub enum Found<P> {
     Records(Vec<Record>),
     /// Text of the format itself.
     Text(String),
+    /// Bytes of the format itself.
+    Bytes(Vec<u8>),
     /// What becomes a part of one whole.
     Part(P),
 }

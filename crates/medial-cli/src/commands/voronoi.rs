@@ -31,7 +31,7 @@ pub fn run(args: &'static VoronoiArgs) -> Result<Status, Failure> {
     let mut write = Duration::ZERO;
     let (at_once, threads) = run.threads(&layer);
     let status = run.each(
-        input,
+        &input.name,
         layer,
         at_once,
         move |feature, domain, stages, bytes| {

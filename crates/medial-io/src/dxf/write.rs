@@ -231,6 +231,9 @@ impl Entities {
                     _ => self.straight("line", points, false),
                 },
                 Shape::LineInSpace(points) => self.line_in_space("line", points),
+                Shape::Lines(lines) => {
+                    lines.iter().for_each(|points| self.straight("line", points, false));
+                }
                 Shape::Polygons(polygons) => {
                     polygons.iter().flatten().for_each(|ring| self.straight("polygon", ring, true));
                 }

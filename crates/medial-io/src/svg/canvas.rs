@@ -43,6 +43,26 @@ impl Canvas {
         }
     }
 
+    /// A PNG image in base 64 of so many columns and rows, each pixel so large, from its first corner on.
+    pub fn image(&mut self, data: &str, size: [u32; 2], scale: [f64; 2], corner: Point) {
+        let ([w, h], [sx, sy]) = (size, scale.map(number));
+        let [x, y] = [corner.x, corner.y].map(number);
+        let _ = writeln!(
+            self.body,
+            "<image width=\"{w}\" height=\"{h}\" transform=\"matrix({sx} 0 0 {sy} {x} {y})\" \
+             preserveAspectRatio=\"none\" style=\"image-rendering:pixelated\" \
+             href=\"data:image/png;base64,{data}\"/>"
+        );
+    }
+
+    /// Opens a group of which nothing is seen outside of a rectangle.
+    pub fn clip(&mut self, corner: Point, size: Point) {
+        self.body.push_str("<clipPath id=\"window\">");
+        self.rectangle(corner, size, "");
+        self.body.push_str("</clipPath>\n");
+        self.open("layers", "clip-path=\"url(#window)\"");
+    }
+
     pub fn circle(&mut self, centre: Point, radius: f64) {
         let [x, y, r] = [centre.x, centre.y, radius].map(number);
         let _ = writeln!(self.body, "<circle cx=\"{x}\" cy=\"{y}\" r=\"{r}\"/>");
@@ -97,11 +117,20 @@ impl Canvas {
     /// The whole picture.
     pub fn finish(self, title: &str) -> String {
         let [w, h] = [self.frame.size.x, self.frame.size.y].map(number);
+        self.finish_on(title, &format!("<rect width=\"{w}\" height=\"{h}\" fill=\"#ffffff\"/>\n"))
+    }
+
+    /// The picture without a ground.
+    pub fn finish_clear(self, title: &str) -> String {
+        self.finish_on(title, "")
+    }
+
+    fn finish_on(self, title: &str, ground: &str) -> String {
+        let [w, h] = [self.frame.size.x, self.frame.size.y].map(number);
         let title = if title.is_empty() { "Medial axis" } else { title };
         format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{w}\" height=\"{h}\" \
-             viewBox=\"0 0 {w} {h}\">\n<title>{title}</title>\n\
-             <rect width=\"{w}\" height=\"{h}\" fill=\"#ffffff\"/>\n{}</svg>\n",
+             viewBox=\"0 0 {w} {h}\">\n<title>{title}</title>\n{ground}{}</svg>\n",
             self.body
         )
     }

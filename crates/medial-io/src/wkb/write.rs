@@ -70,6 +70,15 @@ pub(crate) fn shape(out: &mut Vec<u8>, shape: &Shape) {
             count(out, points.len());
             points.iter().for_each(|&(p, z)| point(out, p, Some(z)));
         }
+        Shape::Lines(lines) => {
+            head(out, MULTI_LINE);
+            count(out, lines.len());
+            for line in lines {
+                head(out, LINE);
+                count(out, line.len());
+                line.iter().for_each(|&p| point(out, p, None));
+            }
+        }
         Shape::Polygons(polygons) => out.extend(write_polygons(polygons)),
     }
 }

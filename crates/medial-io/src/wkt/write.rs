@@ -63,6 +63,10 @@ pub(crate) fn shape(out: &mut String, shape: &Shape) {
             group(out, points, |out, &p| point(out, p, None));
         }
         Shape::LineInSpace(points) => drawn_line(out, points, true),
+        Shape::Lines(lines) => {
+            out.push_str("MULTILINESTRING ");
+            group(out, lines, |out, line| group(out, line, |out, &p| point(out, p, None)));
+        }
         Shape::Polygons(polygons) => match &polygons[..] {
             [polygon] => {
                 out.push_str("POLYGON ");

@@ -299,6 +299,30 @@ impl<'a> DelaunayDual<'a> {
         self.samples.rings.iter().map(ring).collect()
     }
 
+    /// The border as it was sampled, smoothed or drawn back: polygons of samples in the plane of the input, each of rings,
+    /// the outer one first; of the outside a polygon for each ring.
+    #[must_use]
+    pub fn border(&self) -> Vec<Vec<Vec<Point>>> {
+        let rings = self.samples();
+        // The polygon of each ring, and whether the ring is a hole of it.
+        let of: Vec<(u32, bool)> = match &self.source {
+            Source::Domain(domain) => {
+                domain.walks().iter().map(|walk| (walk.component, walk.hole)).collect()
+            }
+            Source::Outside(_) => (0..rings.len() as u32).map(|ring| (ring, false)).collect(),
+            Source::Mask(_, cracks) => {
+                cracks.contours.iter().map(|ring| (ring.polygon, ring.ring > 0)).collect()
+            }
+        };
+        let n = of.iter().map(|&(polygon, _)| polygon as usize + 1).max().unwrap_or(0);
+        let mut polygons = vec![Vec::new(); n];
+        for (ring, (polygon, is_hole)) in rings.into_iter().zip(of) {
+            let polygon: &mut Vec<Vec<Point>> = &mut polygons[polygon as usize];
+            polygon.insert(if is_hole { polygon.len() } else { 0 }, ring);
+        }
+        polygons
+    }
+
     /// The nodes of the dual graph.
     #[must_use]
     pub fn nodes(&self) -> Vec<DualNode> {
@@ -344,6 +368,15 @@ impl<'a> DelaunayDual<'a> {
             let ends = [self.triangles.origin(edge), self.triangles.target(edge)];
             let ends = ends.map(|vertex| self.plane.place(self.triangles.point(vertex)));
             (ends, self.triangles.is_kept(edge))
+        })
+    }
+
+    /// The edges of the one-step crust of the samples, as pairs of points: those that tell the boundary from the samples
+    /// alone, inside and outside.
+    pub fn crust_edges(&self) -> impl Iterator<Item = [Point; 2]> {
+        self.triangles.edges().filter(|&edge| self.triangles.is_crust(edge)).map(|edge| {
+            let ends = [self.triangles.origin(edge), self.triangles.target(edge)];
+            ends.map(|vertex| self.plane.place(self.triangles.point(vertex)))
         })
     }
 

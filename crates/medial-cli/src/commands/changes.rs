@@ -1,0 +1,171 @@
+//! What became of the objects of an image in another one.
+
+use super::features::Run;
+use super::image::{Drawn, FORMATS, lines, picture};
+use super::records::{Found, Plan};
+use super::regions::{self, Parted, color};
+use super::sink::title;
+use crate::args::{ImageArgs, ImageLayer};
+use crate::failure::{Failure, Status};
+use crate::timings::timed;
+use medial::geom::Point;
+use medial_image::{Change, Changes, Objects, Part};
+use medial_io::record::{self, Record, Shape, Value};
+use medial_io::{Feature, Format, Layer};
+use std::path::Path;
+
+const COLUMNS: &[&str] = &[
+    "layer",
+    "change",
+    "region",
+    "region_after",
+    "pixels",
+    "pixels_after",
+    "area",
+    "area_after",
+    "area_kept",
+    "area_gained",
+    "area_lost",
+    "area_changed",
+    "overlap",
+    "color",
+    "color_after",
+    "color_distance",
+];
+
+/// The objects of `before`, an image in regions, and of another one, and what became of the first ones.
+pub fn run(
+    args: &'static ImageArgs,
+    mut run: Run,
+    format: Format,
+    before: &Parted,
+    objects: &Objects,
+    other: &Path,
+) -> Result<Status, Failure> {
+    let after = regions::parted(&args.segmentation, other, &mut run, false)?;
+    let objects_after = timed(&mut run.stages.operations, || after.chosen(&args.choice))?;
+    let changes = timed(&mut run.stages.operations, || {
+        Changes::new(objects, &objects_after, args.min_overlap)
+    });
+    let wrong = |error| before.input.wrong(format_args!("beside {}: {error}", after.input.name));
+    let changes = changes.map_err(wrong)?;
+    let layers = args.layers();
+    let described = Described {
+        objects: [objects, &objects_after],
+        are_bands: [before.are_bands, after.are_bands],
+    };
+    let parts = [
+        (ImageLayer::Gained, Part::Gained),
+        (ImageLayer::Lost, Part::Lost),
+        (ImageLayer::Change, Part::All),
+    ];
+    let mut records: Vec<Vec<(ImageLayer, Record)>> = vec![Vec::new(); changes.list().len()];
+    timed(&mut run.stages.operations, || {
+        for (layer, part) in parts.into_iter().filter(|(layer, _)| layers.contains(layer)) {
+            let shapes = changes.polygons(part);
+            for ((change, polygons), records) in changes.list().iter().zip(shapes).zip(&mut records)
+            {
+                if !polygons.is_empty() {
+                    let mut values = vec![layer.name().into()];
+                    values.extend(described.values(change));
+                    let shape = Shape::Polygons(polygons);
+                    records.push((layer, Record { values, shape }));
+                }
+            }
+        }
+    });
+    let plan = Plan {
+        target: &args.target,
+        thing: "changes",
+        formats: FORMATS,
+        columns: COLUMNS,
+        engine: None,
+    };
+    let is_picture = matches!(format, Format::Svg | Format::Png);
+    let (grid, colours) = (*objects.grid(), before.colours.clone());
+    // A feature each, of which nothing is computed any more.
+    let feature = |index: usize| {
+        let corners = [(0, 0), (grid.columns, 0), (grid.columns, grid.rows), (0, grid.rows)];
+        let ring: Vec<Point> = corners.map(|(column, row)| grid.corner(column, row)).to_vec();
+        Feature { index, polygons: vec![vec![ring]], polygonal: true, ..Feature::default() }
+    };
+    let features: Vec<Feature> = (0..records.len()).map(feature).collect();
+    let layer = Layer::of_features(before.crs.clone(), features.into_iter());
+    plan.run_on(
+        run,
+        &before.input.name,
+        layer,
+        move |feature, _, stages, _| {
+            let records = &records[feature.index];
+            Ok(if is_picture {
+                let drawn =
+                    |(layer, record): &(ImageLayer, Record)| (*layer, lines(record.shape.clone()));
+                Found::Part(records.iter().map(drawn).collect::<Vec<Drawn>>())
+            } else {
+                let records: Vec<Record> =
+                    records.iter().map(|(_, record)| record.clone()).collect();
+                timed(&mut stages.write, || {
+                    let mut bytes = Vec::new();
+                    record::write(&mut bytes, format, feature, None, COLUMNS, &records);
+                    Found::Bytes(bytes)
+                })
+            })
+        },
+        |parts, stages| {
+            let title = title("Changes", &args.input);
+            timed(&mut stages.write, || {
+                picture(args, format, title, (grid, colours), &layers, parts)
+            })
+        },
+    )
+}
+
+/// The objects of both images.
+struct Described<'a> {
+    objects: [&'a Objects; 2],
+    are_bands: [bool; 2],
+}
+
+impl Described<'_> {
+    /// What is told of a change, behind its layer.
+    fn values(&self, change: &Change) -> Vec<Value> {
+        let [kept, gained, lost] = change.cells;
+        let cell = self.objects[0].grid().cell;
+        let area = |cells: u64| Value::from(cells as f64 * (cell[0] * cell[1]).abs());
+        let known = [change.before, change.after];
+        let [before, after] =
+            [0, 1].map(|side| known[side].map(|number| &self.objects[side].all()[number as usize]));
+        let name = match (before, after) {
+            (Some(_), None) => "vanished",
+            (None, _) => "appeared",
+            (Some(_), Some(_)) if gained + lost == 0 => "same",
+            _ => "changed",
+        };
+        let region = |object: Option<&medial_image::Object>| {
+            object.map_or(Value::None, |object| object.regions[0].into())
+        };
+        let colour = |side: usize| {
+            let object = [before, after][side];
+            object.map_or(Value::None, |object| color(object.whole.mean, self.are_bands[side]))
+        };
+        let pixels = |cells: u64| Value::from(cells as usize);
+        let distance = before.zip(after).map(|(a, b)| a.whole.distance(b.whole.mean));
+        vec![
+            name.into(),
+            region(before),
+            region(after),
+            pixels(kept + lost),
+            pixels(kept + gained),
+            area(kept + lost),
+            area(kept + gained),
+            area(kept),
+            area(gained),
+            area(lost),
+            area(gained + lost),
+            change.overlap().into(),
+            colour(0),
+            colour(1),
+            distance.map_or(Value::None, |distance| f64::from(distance).into()),
+        ]
+    }
+}

@@ -1,0 +1,394 @@
+use super::axis::{dual, pruned, traced};
+use super::changes;
+use super::features::Run;
+use super::records::{Found, Plan};
+use super::regions::{self, Parted, color};
+use super::sink::title;
+use crate::args::{ChosenEngine, Height, ImageArgs, ImageLayer, Pruning, Region, Sides, Target};
+use crate::failure::{Failure, Status};
+use crate::parallel::kept;
+use crate::report::Entry;
+use crate::timings::{Stages, timed};
+use medial::axis::{Engine, Joining, KeypointKind, MedialAxis, Polyline, Side};
+use medial::domain::Domain;
+use medial::engine::{self, DelaunayDual};
+use medial::geom::{Point, Rect};
+use medial::raster::{Grid, outline};
+use medial_image::{Object, Objects};
+use medial_io::record::{Record, Shape, Value};
+use medial_io::svg::{LineStyle, Options, Overlay, OverlayLayer};
+use medial_io::{Crs, Feature, Format, Layer, default_tolerance, png, svg};
+use std::sync::Arc;
+
+/// Columns of what is written of a region.
+const COLUMNS: &[&str] = &[
+    "layer",
+    "region",
+    "n_regions",
+    "pixels",
+    "area",
+    "color",
+    "mean_1",
+    "mean_2",
+    "mean_3",
+    "length",
+    "radius_min",
+    "radius_max",
+    "radius_start",
+    "radius_end",
+    "kind_start",
+    "kind_end",
+];
+
+/// Formats of what is written.
+pub const FORMATS: &[Format] = &[
+    Format::GeoJson,
+    Format::GeoJsonLines,
+    Format::Csv,
+    Format::Wkt,
+    Format::Wkb,
+    Format::Dxf,
+    Format::Svg,
+    Format::Png,
+];
+
+/// Lines of a layer in a picture.
+pub type Drawn = (ImageLayer, Vec<Vec<Point>>);
+
+/// `medial image`.
+pub fn run(args: &'static ImageArgs) -> Result<Status, Failure> {
+    args.check()?;
+    regions::check(&args.segmentation)?;
+    let layers = args.layers();
+    let format = checked_format(args, &layers)?;
+    let mut run = Run::new(kept(args.run.common()))?;
+    run.knows_metric = false;
+    let is_picture = matches!(format, Format::Svg | Format::Png);
+    let parted = regions::parted(&args.segmentation, &args.input, &mut run, is_picture)?;
+    let objects = timed(&mut run.stages.operations, || parted.chosen(&args.choice))?;
+    if let Some(other) = &args.compare {
+        return changes::run(args, run, format, &parted, &objects, other);
+    }
+    let Parted { input, crs, are_bands, colours, .. } = parted;
+    let (grid, objects) = (*objects.grid(), Arc::new(objects));
+    let cell = grid.cell_size();
+    let plan = Plan {
+        target: &args.target,
+        thing: "layers",
+        formats: FORMATS,
+        columns: COLUMNS,
+        engine: args.engine(cell).engine,
+    };
+    let layer = timed(&mut run.stages.operations, || layer(&objects, crs, args.simplify));
+    let drafter = Drafter {
+        engine: args.engine(cell),
+        pruning: args.pruning(cell),
+        region: Region { side: Sides::Interior, frame: None },
+        layers: args.layers(),
+        tolerance: args.tolerance,
+        radius_as_z: args.z == Some(Height::Radius),
+        are_bands,
+        is_simplified: args.simplify.is_some(),
+        objects,
+    };
+    plan.run_on(
+        run,
+        &input.name,
+        layer,
+        move |feature, domain, stages, options| {
+            let records = drafter.records(feature, domain, stages, options)?;
+            Ok(if is_picture {
+                let drawn = |(layer, record): (ImageLayer, Record)| (layer, lines(record.shape));
+                Found::Part(records.into_iter().map(drawn).collect::<Vec<Drawn>>())
+            } else {
+                Found::Records(records.into_iter().map(|(_, record)| record).collect())
+            })
+        },
+        |parts: Vec<Vec<Drawn>>, stages| {
+            let title = title("Regions", &args.input);
+            timed(&mut stages.write, || {
+                picture(args, format, title, (grid, colours), &layers, parts)
+            })
+        },
+    )
+}
+
+/// The format of the output, if layers have it.
+fn checked_format(args: &'static ImageArgs, layers: &[ImageLayer]) -> Result<Format, Failure> {
+    let target: &'static Target = &args.target;
+    let plan = Plan { target, thing: "layers", formats: FORMATS, columns: COLUMNS, engine: None };
+    let format = plan.format()?;
+    let usage = |why: String| Err(Failure::Usage(why));
+    if format.is_table() && layers.len() > 1 {
+        let names = layers.iter().map(|layer| layer.name()).collect::<Vec<_>>().join(", ");
+        return usage(format!(
+            "a table holds one layer, and here are {names}; name one with --layers, or write geojson"
+        ));
+    }
+    let is_picture = matches!(format, Format::Svg | Format::Png);
+    if args.window.is_some() && !is_picture {
+        return usage(format!("--window is for svg and png, not for {format}"));
+    }
+    if args.z.is_some() && is_picture {
+        return usage(format!("--z is not for {format}"));
+    }
+    Ok(format)
+}
+
+/// A feature for each object: its mask with its outline, or its polygons between simplified borders.
+fn layer(objects: &Arc<Objects>, crs: Option<Crs>, simplify: Option<f64>) -> Layer<'static> {
+    let borders = simplify.map(|tolerance| objects.borders(tolerance));
+    let n = objects.all().len();
+    let objects = Arc::clone(objects);
+    let feature = move |index: usize| {
+        let mask = match borders {
+            Some(_) => None,
+            None => objects.mask(index as u32).ok().map(Arc::new),
+        };
+        let polygons = match (&borders, &mask) {
+            (Some(borders), _) => objects.polygons_between(index as u32, borders),
+            (None, Some(mask)) => outline(mask),
+            (None, None) => Vec::new(),
+        };
+        Feature {
+            index,
+            polygons,
+            geometry: "a region".to_owned(),
+            polygonal: true,
+            mask,
+            ..Feature::default()
+        }
+    };
+    Layer::of_features(crs, (0..n).map(feature))
+}
+
+/// What makes layers of objects.
+struct Drafter {
+    engine: ChosenEngine,
+    pruning: Pruning,
+    region: Region,
+    layers: Vec<ImageLayer>,
+    tolerance: Option<f64>,
+    radius_as_z: bool,
+    are_bands: bool,
+    is_simplified: bool,
+    objects: Arc<Objects>,
+}
+
+impl Drafter {
+    /// The records of an object, each with its layer.
+    fn records(
+        &self,
+        feature: &Feature,
+        domain: &Domain,
+        stages: &mut Stages,
+        options: &engine::Options<'_>,
+    ) -> Result<Vec<(ImageLayer, Record)>, Entry> {
+        let layers = &self.layers;
+        let has = |layer: ImageLayer| layers.contains(&layer);
+        let graphs = [ImageLayer::Delaunay, ImageLayer::Crust, ImageLayer::Dual];
+        let moves = self.engine.smooth_border.is_some() || self.engine.retract.is_some();
+        let needs_graph = graphs.into_iter().any(has) || (moves && has(ImageLayer::Border));
+        let mut graph = None;
+        let mut axis = None;
+        if self.engine.engine == Some(Engine::DelaunayDual) {
+            if needs_graph || has(ImageLayer::Axis) {
+                let cell = self.objects.grid().cell_size();
+                let options = engine::Options { spacing: self.engine.spacing, ..*options };
+                let found = timed(&mut stages.engine, || {
+                    dual(&self.engine, &self.region, Side::Interior, feature, domain, &options)
+                });
+                let found = found.map_err(|error| Entry::unfinished(&error))?;
+                stages.sampling = Some(found.sampling());
+                if has(ImageLayer::Axis) {
+                    let whole = timed(&mut stages.engine, || {
+                        found.axis(self.pruning.of_dual(feature, cell))
+                    });
+                    axis = Some(whole.map_err(|error| Entry::unfinished(&error))?);
+                }
+                graph = Some(found);
+            }
+        } else if has(ImageLayer::Axis) {
+            let (chosen, region, pruning) = (&self.engine, &self.region, &self.pruning);
+            let axes = timed(&mut stages.engine, || {
+                traced(chosen, region, pruning, feature, domain, options, &mut None)
+            });
+            axis = axes?.pop();
+        }
+        let axis = match axis {
+            Some(axis) => Some(timed(&mut stages.operations, || {
+                pruned(&self.pruning, feature, domain, axis)
+            })?),
+            None => None,
+        };
+        let border = || match &graph {
+            Some(graph) if moves => graph.border(),
+            _ if self.is_simplified => feature.polygons.clone(),
+            _ => self.objects.polygons(feature.index as u32),
+        };
+        let edges = |layer: ImageLayer| {
+            let graph = graph.as_ref();
+            Shape::Lines(graph.map_or_else(Vec::new, |graph| lines_of(graph, layer)))
+        };
+        let mut records = Vec::new();
+        for &layer in layers {
+            match layer {
+                ImageLayer::Axis => {
+                    let axis = axis.as_ref().map_or_else(Vec::new, |axis| self.branches(axis));
+                    records.extend(axis.into_iter().map(|(measures, shape)| {
+                        (layer, self.record(feature, layer, measures, shape))
+                    }));
+                }
+                _ => {
+                    let shape = match layer {
+                        ImageLayer::Border => Shape::Polygons(border()),
+                        _ => edges(layer),
+                    };
+                    let nothing = [(); 7].map(|()| Value::None).to_vec();
+                    records.push((layer, self.record(feature, layer, nothing, shape)));
+                }
+            }
+        }
+        Ok(records)
+    }
+
+    /// A record with what is known of the object.
+    fn record(
+        &self,
+        feature: &Feature,
+        layer: ImageLayer,
+        measures: Vec<Value>,
+        shape: Shape,
+    ) -> Record {
+        let Object { regions, whole } = &self.objects.all()[feature.index];
+        let cell = self.objects.grid().cell;
+        let mut values: Vec<Value> = vec![
+            layer.name().into(),
+            regions[0].into(),
+            regions.len().into(),
+            (whole.cells as usize).into(),
+            (whole.cells as f64 * (cell[0] * cell[1]).abs()).into(),
+            color(whole.mean, self.are_bands),
+        ];
+        values.extend(whole.mean.map(|mean| Value::from(f64::from(mean))));
+        values.extend(measures);
+        Record { values, shape }
+    }
+
+    /// The branches of an axis with their measures, and what was pruned to a point.
+    fn branches(&self, axis: &MedialAxis) -> Vec<(Vec<Value>, Shape)> {
+        let tolerance = self.tolerance.unwrap_or_else(|| default_tolerance(axis));
+        let end = |keypoint: u32| axis.keypoints().at(keypoint);
+        let kind = |kind: KeypointKind| Value::from(kind.name());
+        let branch = |Polyline { path, paths, .. }: Polyline| {
+            let mut points: Vec<(Point, f64)> = Vec::new();
+            let (mut length, mut low, mut high) = (0.0, f64::INFINITY, 0.0_f64);
+            for (number, forwards) in paths {
+                let curve = axis.curve(&axis.paths().at(number));
+                let curve = if forwards { curve } else { curve.reversed() };
+                length += curve.length();
+                (low, high) = (low.min(curve.radius_min()), high.max(curve.radius_max()));
+                let drawn = match self.radius_as_z {
+                    true => curve.polyline_in_space(tolerance),
+                    false => curve.polyline(tolerance),
+                };
+                points.extend(drawn.into_iter().skip(usize::from(!points.is_empty())));
+            }
+            let [from, to] = [path.from, path.to].map(end);
+            let radii = [length, low, high, from.radius, to.radius].map(Value::from);
+            let values = radii.into_iter().chain([from.kind, to.kind].map(kind)).collect();
+            let shape = match self.radius_as_z {
+                true => Shape::LineInSpace(points),
+                false => Shape::Line(points.into_iter().map(|(p, _)| p).collect()),
+            };
+            (values, shape)
+        };
+        let mut records: Vec<_> =
+            axis.polylines(Joining::Branches).into_iter().map(branch).collect();
+        let degrees = axis.degrees();
+        for (keypoint, _) in (0..).zip(&degrees).filter(|&(_, &degree)| degree == 0) {
+            let keypoint = end(keypoint);
+            let radius = keypoint.radius;
+            let radii = [0.0, radius, radius, radius, radius].map(Value::from);
+            let values = radii.into_iter().chain([keypoint.kind; 2].map(kind)).collect();
+            let shape = match self.radius_as_z {
+                true => Shape::PointInSpace(keypoint.position, radius),
+                false => Shape::Point(keypoint.position),
+            };
+            records.push((values, shape));
+        }
+        records
+    }
+}
+
+/// The lines of a graph in a layer.
+fn lines_of(graph: &DelaunayDual<'_>, layer: ImageLayer) -> Vec<Vec<Point>> {
+    match layer {
+        ImageLayer::Delaunay => graph.delaunay_edges().map(|(edge, _)| edge.to_vec()).collect(),
+        ImageLayer::Crust => graph.crust_edges().map(|edge| edge.to_vec()).collect(),
+        _ => {
+            let nodes = graph.nodes();
+            let middle = |node: u32| nodes[node as usize].middle;
+            graph.edges().map(|edge| edge.map(middle).to_vec()).collect()
+        }
+    }
+}
+
+/// The lines of a shape; rings of polygons are not closed.
+pub fn lines(shape: Shape) -> Vec<Vec<Point>> {
+    match shape {
+        Shape::Point(p) | Shape::PointInSpace(p, _) => vec![vec![p]],
+        Shape::Line(points) => vec![points],
+        Shape::LineInSpace(points) => vec![points.into_iter().map(|(p, _)| p).collect()],
+        Shape::Lines(lines) => lines,
+        Shape::Polygons(polygons) => polygons.into_iter().flatten().collect(),
+        _ => Vec::new(),
+    }
+}
+
+/// The picture of layers over the pixels of an image.
+pub fn picture(
+    args: &ImageArgs,
+    format: Format,
+    title: String,
+    (grid, colours): (Grid, Vec<[f32; 3]>),
+    layers: &[ImageLayer],
+    parts: Vec<Vec<Drawn>>,
+) -> Result<Vec<u8>, Failure> {
+    let mut drawn: Vec<OverlayLayer> = layers.iter().map(|&layer| overlay_layer(layer)).collect();
+    for (layer, lines) in parts.into_iter().flatten() {
+        if let Some(number) = layers.iter().position(|&other| other == layer) {
+            drawn[number].lines.extend(lines);
+        }
+    }
+    let mut overlay = Overlay { grid, colours, layers: drawn };
+    if let Some([a, b]) = args.window {
+        let min = Point::new(a.x.min(b.x), a.y.min(b.y));
+        let max = Point::new(a.x.max(b.x), a.y.max(b.y));
+        overlay = overlay.within(Rect { min, max }).ok_or_else(|| {
+            let name = args.input.display().to_string();
+            Failure::file(&name, "has no pixel in --window; see where the image lies")
+        })?;
+    }
+    let options = Options { title, ..Options::default() };
+    match format {
+        Format::Svg => Ok(svg::write_overlay(&overlay, &options).into_bytes()),
+        _ => png::write_overlay(&overlay, &options)
+            .map_err(|error| Failure::file("<picture>", error)),
+    }
+}
+
+fn overlay_layer(layer: ImageLayer) -> OverlayLayer {
+    let style = match layer {
+        ImageLayer::Border => LineStyle::BORDER,
+        ImageLayer::Delaunay => LineStyle::DELAUNAY,
+        ImageLayer::Crust => LineStyle::CRUST,
+        ImageLayer::Dual => LineStyle::DUAL,
+        ImageLayer::Axis => LineStyle::AXIS,
+        ImageLayer::Change => LineStyle::CHANGE,
+        ImageLayer::Gained => LineStyle::GAINED,
+        ImageLayer::Lost => LineStyle::LOST,
+    };
+    let are_rings = layer == ImageLayer::Border || layer.is_of_changes();
+    OverlayLayer { name: layer.name(), style, lines: Vec::new(), are_rings }
+}

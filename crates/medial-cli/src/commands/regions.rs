@@ -1,0 +1,263 @@
+//! Regions of colour images, as all commands on them find and choose them.
+
+use super::features::Run;
+use crate::args::{Choice, SegmentMethod, Segmentation};
+use crate::failure::Failure;
+use crate::guard::guarded;
+use crate::input::Input;
+use crate::progress::Progress;
+use crate::timings::timed;
+use medial_image::{
+    Action, Analysis, Click, Field, Filter, Labels, Objects, Region, Selection, feature_space, luv,
+    mean_shift, near_colours, srgb, thresholds,
+};
+use medial_io::record::Value;
+use medial_io::{Content, Crs, Format, clicks, image};
+use std::num::NonZeroUsize;
+use std::path::Path;
+use std::sync::mpsc::{self, RecvTimeoutError};
+use std::thread;
+use std::time::Duration;
+
+/// An image in regions.
+pub struct Parted {
+    pub input: Input,
+    pub crs: Option<Crs>,
+    /// Whether what it has are bands, and no colours.
+    pub are_bands: bool,
+    pub labels: Labels,
+    pub regions: Vec<Region>,
+    /// Its pixels in colours, if they were asked for; bands are grey.
+    pub colours: Vec<[f32; 3]>,
+}
+
+/// How far from its colour a pixel, or the mean of a region, may be where nothing is said.
+const TOLERANCE: f64 = 20.0;
+
+/// Reads an image and parts it into regions.
+pub fn parted(
+    args: &'static Segmentation,
+    path: &Path,
+    run: &mut Run,
+    keeps_colours: bool,
+) -> Result<Parted, Failure> {
+    let common = run.common;
+    let input = timed(&mut run.stages.read, || Input::read(path))?;
+    let colours = timed(&mut run.stages.read, || colours(args, common.from, path, &input))?;
+    let image::Colours { grid, crs, values, are_bands } = colours;
+    let kept = if keeps_colours { values.clone() } else { Vec::new() };
+    let field = timed(&mut run.stages.engine, || match are_bands {
+        true => Field::of_bands(grid, values),
+        false => Field::of_colours(grid, values),
+    });
+    let field = field.map_err(|error| input.wrong(error))?;
+    let colours = match (keeps_colours, are_bands) {
+        (true, true) => field.values().iter().map(|&value| shown(value, true)).collect(),
+        _ => kept,
+    };
+    let threads = run.all_threads();
+    let progress = Progress::working(common.progress, common.quiet, "parting the image");
+    let found = timed(&mut run.stages.engine, || {
+        within(common.limit(), move || {
+            let labels = labels(args, &field, threads);
+            let regions = labels.regions(&field);
+            (labels, regions)
+        })
+    });
+    progress.finish();
+    let (labels, regions) = match found.map_err(|panic| input.wrong(panic))? {
+        Some(found) => found,
+        None => {
+            let why = "takes longer to be parted into regions than --max-seconds allows; give it more, or a smaller image";
+            return Err(input.wrong(why));
+        }
+    };
+    if labels.is_empty() {
+        return Err(input.wrong("has no pixel with data; there is nothing to part"));
+    }
+    Ok(Parted { input, crs, are_bands, labels, regions, colours })
+}
+
+/// What work gives, unless it takes longer; then it is left to itself.
+fn within<T: Send + 'static>(
+    limit: Option<Duration>,
+    work: impl FnOnce() -> T + Send + 'static,
+) -> Result<Option<T>, String> {
+    let Some(limit) = limit else { return guarded(work).map(Some) };
+    let (sender, receiver) = mpsc::channel();
+    // Nobody listens after the time is over.
+    thread::spawn(move || drop(sender.send(guarded(work))));
+    match receiver.recv_timeout(limit) {
+        Ok(found) => found.map(Some),
+        Err(RecvTimeoutError::Timeout) => Ok(None),
+        Err(RecvTimeoutError::Disconnected) => Err("the work broke off".to_owned()),
+    }
+}
+
+impl Parted {
+    /// The regions that are chosen, as objects.
+    pub fn chosen(&self, choice: &Choice) -> Result<Objects, Failure> {
+        let Choice { min_pixels, max_pixels, select_color, select_tolerance, .. } = choice;
+        let has_filter = min_pixels.is_some() || max_pixels.is_some() || !select_color.is_empty();
+        if self.are_bands && !select_color.is_empty() {
+            let why = "has bands that are no colours; choose regions by their size or by points";
+            return Err(self.input.wrong(why));
+        }
+        let colours: Vec<[f32; 3]> = select_color.iter().map(|&colour| of_bytes(colour)).collect();
+        let near = select_tolerance.unwrap_or(TOLERANCE) as f32;
+        let pixels = min_pixels.unwrap_or(0)..=max_pixels.unwrap_or(u64::MAX);
+        let is_asked = |region: &Region| {
+            pixels.contains(&region.cells)
+                && (colours.is_empty() || colours.iter().any(|&c| region.distance(c) <= near))
+        };
+        let clicks = self.clicks(choice)?;
+        let begins_empty =
+            !has_filter && clicks.first().is_some_and(|(_, click)| click.action != Action::Remove);
+        let numbered = (0..).zip(&self.regions);
+        let all = numbered.filter(|(_, region)| !begins_empty && is_asked(region));
+        let mut chosen = Selection::of(all.map(|(number, _)| number));
+        for (place, click) in clicks {
+            chosen
+                .click(&self.labels, click)
+                .map_err(|error| self.input.wrong(format_args!("{place}: {error}")))?;
+        }
+        if chosen.objects().is_empty() {
+            let n = self.regions.len();
+            let why = format!(
+                "none of its {n} regions is chosen; see them with `medial segment`, and choose others"
+            );
+            return Err(self.input.wrong(why));
+        }
+        Ok(Objects::new(&self.labels, &self.regions, &chosen))
+    }
+
+    /// All clicks, each with the place where it is said.
+    fn clicks(&self, choice: &Choice) -> Result<Vec<(String, Click)>, Failure> {
+        let mut clicks = Vec::new();
+        for (number, &at) in choice.at.iter().enumerate() {
+            let action = if choice.combine && number > 0 { Action::Combine } else { Action::Add };
+            clicks.push(("--at".to_owned(), Click { action, at }));
+        }
+        let removed = choice.remove.iter();
+        let removed = removed.map(|&at| Click { action: Action::Remove, at });
+        clicks.extend(removed.map(|click| ("--remove".to_owned(), click)));
+        if let Some(path) = &choice.clicks {
+            let file = Input::read(path)?;
+            for row in clicks::read(file.bytes()).map_err(|error| file.wrong(error))? {
+                let place = format!("{}: line {}", file.name, row.line);
+                let action = row.action.parse::<Action>();
+                let action = action.map_err(|error| Failure::file(&place, error))?;
+                clicks.push((place, Click { action, at: row.at }));
+            }
+        }
+        Ok(clicks)
+    }
+}
+
+/// The colour in which values are shown, of red, green and blue from 0 to 1: bands have none, theirs is grey.
+pub fn shown(values: [f32; 3], are_bands: bool) -> [f32; 3] {
+    if are_bands { [values[0] / 100.0; 3] } else { srgb(values) }
+}
+
+/// That colour as text.
+pub fn color(values: [f32; 3], are_bands: bool) -> Value {
+    let [red, green, blue] =
+        shown(values, are_bands).map(|v| (255.0 * v.clamp(0.0, 1.0)).round() as u8);
+    Value::Text(format!("#{red:02x}{green:02x}{blue:02x}"))
+}
+
+fn of_bytes(colour: [u8; 3]) -> [f32; 3] {
+    luv(colour.map(|value| f32::from(value) / 255.0))
+}
+
+/// Fails if something is said to a method that another one would listen to.
+pub fn check(args: &Segmentation) -> Result<(), Failure> {
+    use SegmentMethod::{Colours, FeatureSpace, MeanShift, Threshold};
+    let said: [(&str, bool, SegmentMethod, &str); 7] = [
+        ("--resolution", args.resolution.is_some(), FeatureSpace, "feature_space"),
+        ("--seed", args.seed.is_some(), FeatureSpace, "feature_space"),
+        ("--spatial", args.spatial.is_some(), MeanShift, "mean_shift"),
+        ("--range", args.range.is_some(), MeanShift, "mean_shift"),
+        ("--limits", !args.limits.is_empty(), Threshold, "threshold"),
+        ("--color", !args.color.is_empty(), Colours, "colours"),
+        ("--color-tolerance", args.color_tolerance.is_some(), Colours, "colours"),
+    ];
+    let usage = |why: String| Err(Failure::Usage(why));
+    if let Some((option, _, _, method)) = said.iter().find(|said| said.1 && said.2 != args.method) {
+        return usage(format!("{option} is for --method {method}"));
+    }
+    if args.method == Threshold && args.limits.is_empty() {
+        return usage("--method threshold needs --limits T,T".to_owned());
+    }
+    if !args.limits.is_sorted_by(|a, b| a < b) || args.limits.iter().any(|t| !t.is_finite()) {
+        return usage("--limits are numbers in increasing order".to_owned());
+    }
+    if args.method == Colours && args.color.is_empty() {
+        return usage("--method colours needs --color RRGGBB,…".to_owned());
+    }
+    if args.method == Colours && !args.bands.is_empty() {
+        return usage("--color is for colours, not for --bands".to_owned());
+    }
+    Ok(())
+}
+
+/// The colours or bands of the image.
+fn colours(
+    args: &Segmentation,
+    from: Option<Format>,
+    path: &Path,
+    input: &Input,
+) -> Result<image::Colours, Failure> {
+    let bands: Vec<usize> = args.bands.iter().map(|band| band.get()).collect();
+    let named = from.or_else(|| Format::from_path(path).ok());
+    let format = match named {
+        Some(format) => format,
+        None => match Format::of_content(input.bytes()) {
+            Ok(Content::Polygons(format)) => format,
+            _ => return Err(input.wrong("is no image; png, jpeg and tiff are read")),
+        },
+    };
+    if !matches!(format, Format::Png | Format::Jpeg | Format::Tiff) {
+        let why = format!("is {format}, no image; png, jpeg and tiff are read");
+        return Err(input.wrong(why));
+    }
+    // Decoders may panic, as parsers of fonts may.
+    let read = guarded(|| image::read_colours(format, input.bytes(), &bands));
+    let colours = read.map_err(|panic| input.wrong(panic))?.map_err(|error| input.wrong(error))?;
+    if args.method == SegmentMethod::Colours && colours.are_bands {
+        return Err(input.wrong("has bands that are no colours; name a threshold instead"));
+    }
+    Ok(colours)
+}
+
+/// The regions by the method that is asked for.
+fn labels(args: &Segmentation, field: &Field, threads: NonZeroUsize) -> Labels {
+    let min_region = args.min_region.unwrap_or(1);
+    match args.method {
+        SegmentMethod::FeatureSpace => {
+            let analysis = Analysis {
+                resolution: args.resolution.map(Into::into).unwrap_or_default(),
+                seed: args.seed.unwrap_or(0),
+                min_region: args.min_region,
+            };
+            feature_space(field, &analysis)
+        }
+        SegmentMethod::MeanShift => {
+            let usual = Filter::default();
+            let filter = Filter {
+                spatial: args.spatial.map_or(usual.spatial, |radius| radius as f32),
+                range: args.range.map_or(usual.range, |radius| radius as f32),
+                min_region: args.min_region.unwrap_or(usual.min_region),
+                threads,
+            };
+            mean_shift(field, &filter)
+        }
+        SegmentMethod::Threshold => thresholds(field, &args.limits, min_region),
+        SegmentMethod::Colours => {
+            let colours: Vec<[f32; 3]> =
+                args.color.iter().map(|&colour| of_bytes(colour)).collect();
+            let distance = args.color_tolerance.unwrap_or(TOLERANCE) as f32;
+            near_colours(field, &colours, distance, min_region)
+        }
+    }
+}
