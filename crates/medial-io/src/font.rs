@@ -33,7 +33,7 @@ pub fn read<'a>(bytes: &[u8], options: &ReadOptions) -> Result<Layer<'a>, Error>
     let (mut glyphs, is_variable) = caught(|| {
         let font = face(bytes, options.layer.as_deref())?;
         let glyphs = match &options.text {
-            Some(text) => laid_out(&font, text)?,
+            Some(text) => laid_out(&font, text, is_cut_off(&font, bytes))?,
             None => all(&font)?,
         };
         Ok::<_, Error>((glyphs, font.axes().iter().next().is_some()))
@@ -144,8 +144,23 @@ fn all(font: &FontRef) -> Result<Vec<Result<Glyph, Error>>, Error> {
     Ok(glyphs)
 }
 
+/// Whether a table of a font, or the list of them, ends behind the end of its file.
+fn is_cut_off(font: &FontRef, bytes: &[u8]) -> bool {
+    let size = bytes.len() as u64;
+    let directory = font.table_directory();
+    let records = directory.table_records();
+    records.len() < usize::from(directory.num_tables())
+        || records
+            .iter()
+            .any(|record| u64::from(record.offset()) + u64::from(record.length()) > size)
+}
+
 /// The glyphs of a text with an outline.
-fn laid_out(font: &FontRef, text: &str) -> Result<Vec<Result<Glyph, Error>>, Error> {
+fn laid_out(
+    font: &FontRef,
+    text: &str,
+    is_cut_off: bool,
+) -> Result<Vec<Result<Glyph, Error>>, Error> {
     let metrics = font.metrics(Size::unscaled(), LocationRef::default());
     let height = f64::from(metrics.ascent - metrics.descent + metrics.leading);
     let outlines = font.outline_glyphs();
@@ -171,8 +186,11 @@ fn laid_out(font: &FontRef, text: &str) -> Result<Vec<Result<Glyph, Error>>, Err
             let offset = Point::new(f64::from(position.x_offset), f64::from(position.y_offset));
             if id == GlyphId::NOTDEF {
                 let place = format!("character `{cluster}`");
-                let why = "the font has no glyph for it; take another font".to_owned();
-                glyphs.push(Err(Error::Value { place, why }));
+                let why = match is_cut_off {
+                    true => "the font is cut off, and has no glyph for it; copy the font again",
+                    false => "the font has no glyph for it; take another font",
+                };
+                glyphs.push(Err(Error::Value { place, why: why.to_owned() }));
             } else if let Some(outline) = outlines.get(id) {
                 match drawn(font, id, &outline) {
                     Ok(contours) if contours.is_empty() => {}
@@ -270,6 +288,25 @@ mod tests {
             let error = read(bytes, &ReadOptions::default()).err().unwrap();
             assert!(error.to_string().starts_with("the font: "), "{error}");
         }
+    }
+
+    #[test]
+    fn characters_of_a_font_that_is_cut_off_say_so() {
+        let font = include_bytes!("../../../fixtures/drawings/two_letters.ttf");
+        let said = |bytes: &[u8], text: &str| -> Vec<String> {
+            let options = ReadOptions { text: Some(text.to_owned()), ..ReadOptions::default() };
+            let Ok(layer) = read(bytes, &options) else { return Vec::new() };
+            layer.filter_map(Result::err).map(|error| error.to_string()).collect()
+        };
+        assert!(said(font, "X")[0].ends_with("has no glyph for it; take another font"));
+        let mut n = 0;
+        for end in 12..font.len() {
+            for why in said(&font[..end], "X") {
+                assert!(!why.contains("take another font"), "{end}: {why}");
+                n += usize::from(why.ends_with("copy the font again"));
+            }
+        }
+        assert!(n > 0);
     }
 
     #[test]

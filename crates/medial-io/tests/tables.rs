@@ -446,6 +446,78 @@ fn a_flatgeobuf_that_breaks_off_between_two_features_is_short_of_some() {
     assert!(matches!(error, Error::Interrupted { .. }));
 }
 
+#[test]
+fn nothing_is_left_beside_a_geopackage_that_had_a_log() {
+    let folder = tempfile::tempdir().unwrap();
+    // What means something in names of the library.
+    let path = folder.path().join("a %41?b#c.gpkg");
+    write(Format::Gpkg, &path, POLYGONS, None).unwrap();
+    let database = rusqlite::Connection::open(&path).unwrap();
+    let mode: String =
+        database.query_row("PRAGMA journal_mode = WAL", [], |row| row.get(0)).unwrap();
+    assert_eq!(mode, "wal");
+    let count = || read(Format::Gpkg, &path).map(Result::unwrap).count();
+    // Changes that are in the log alone count too.
+    database.execute_batch("DELETE FROM \"layer\" WHERE fid = 1").unwrap();
+    assert_eq!(count(), 2);
+    database.close().unwrap();
+    let names = || -> Vec<_> {
+        std::fs::read_dir(folder.path()).unwrap().map(|entry| entry.unwrap().file_name()).collect()
+    };
+    assert_eq!(names().len(), 1, "{:?}", names());
+    assert_eq!(count(), 2);
+    assert_eq!(names().len(), 1, "{:?}", names());
+}
+
+#[test]
+fn a_name_that_is_reserved_in_a_geopackage_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut spool = Spool::new(tempfile::tempfile().unwrap());
+    spool.add(POLYGONS.as_bytes()).unwrap();
+    let path = file(&folder, Format::Gpkg);
+    let error = table::write(Format::Gpkg, &path, "SQLite_x", None, &mut spool).unwrap_err();
+    assert!(matches!(error, WriteError::Unfit { .. }));
+    assert!(error.to_string().ends_with("name the file otherwise"), "{error}");
+}
+
+#[test]
+fn reference_systems_of_shapefiles_are_read_in_their_encoding() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = file(&folder, Format::Shp);
+    write(Format::Shp, &path, POLYGONS, None).unwrap();
+    let of = |text: &[u8]| {
+        std::fs::write(path.with_extension("prj"), text).unwrap();
+        let layer = read(Format::Shp, &path);
+        (layer.crs.and_then(|crs| crs.name()), layer.warnings)
+    };
+    assert_eq!(of(b"PROJCS[\"Gau\xdf\"]"), (Some("Gauß".to_owned()), vec![]));
+    assert_eq!(of("\u{feff}PROJCS[\"Gauß\"]".as_bytes()), (Some("Gauß".to_owned()), vec![]));
+    assert_eq!(of(b" \n"), (None, vec![]));
+    let (name, warnings) = of(b"hello world");
+    assert!(name.is_none() && warnings[0].contains("`hello world` begins no"), "{warnings:?}");
+    assert_eq!(Crs::of_wkt("PROJCS[]").to_string(), "without a name");
+}
+
+#[test]
+fn messages_of_damaged_tables_say_what_to_do() {
+    let folder = tempfile::tempdir().unwrap();
+    let said = |format: Format, bytes: &[u8]| {
+        let path = file(&folder, format);
+        std::fs::write(&path, bytes).unwrap();
+        open(format, &path, &ReadOptions::default()).err().unwrap().to_string()
+    };
+    let why = said(Format::Parquet, &[0; 200]);
+    assert!(why.ends_with("; copy it again if it is cut off"), "{why}");
+    let why = said(Format::Gpkg, &[b'x'; 2000]);
+    assert!(why.ends_with("; name its format with --from"), "{why}");
+    let path = file(&folder, Format::Gpkg);
+    write(Format::Gpkg, &path, POLYGONS, None).unwrap();
+    let mut bytes = std::fs::read(&path).unwrap();
+    bytes[100..4096].fill(0xff);
+    let why = said(Format::Gpkg, &bytes);
+    assert!(why.contains("; copy it again, or repair it"), "{why}");
+}
+
 /// A small generator of numbers, the same on every run.
 struct Dice(u64);
 

@@ -276,7 +276,7 @@ impl std::fmt::Display for Crs {
         match (self.authority(), self.name()) {
             (Some((authority, code)), _) => write!(f, "{authority}:{code}"),
             (None, Some(name)) => f.write_str(&name),
-            (None, None) => f.write_str("a reference system without a name"),
+            (None, None) => f.write_str("without a name"),
         }
     }
 }

@@ -53,7 +53,7 @@ impl<'a> Group<'a> {
         /// Far more than a full circle but for rounding, and what can be computed with.
         const MOST: f64 = 1e100;
         let bulge = self.real()?;
-        match -MOST <= bulge && bulge <= MOST {
+        match (-MOST..=MOST).contains(&bulge) {
             true => Ok(bulge),
             false => Err(self.wrong(format!("`{bulge}` is no bulge; correct it"))),
         }

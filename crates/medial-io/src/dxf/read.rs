@@ -492,7 +492,7 @@ impl Drawing {
                 let n_repeats: usize = rings().map(|ring| ring.n_repeats).sum();
                 if n_repeats > 0 {
                     let text = format!(
-                        "lines that are drawn more than once are taken once: {n_repeats} are left out"
+                        "lines that are drawn more than once are taken once: {n_repeats} left out"
                     );
                     item.notes.push(Note { code: "duplicate_line", text });
                 }
@@ -517,8 +517,13 @@ fn unclosed(outline: &Outline) -> Option<(usize, Item)> {
     kinds.sort_unstable();
     kinds.dedup();
     let (a, b) = (outline.contour.start, outline.contour.end());
+    let repeats = match outline.n_repeats {
+        0 => String::new(),
+        1 => ", 1 repeat left out,".to_owned(),
+        n => format!(", {n} repeats left out,"),
+    };
     let what = format!(
-        "a chain of {} {} on layer `{}` from ({}, {}) to ({}, {})",
+        "a chain of {} {}{repeats} on layer `{}` from ({}, {}) to ({}, {})",
         outline.lines.len(),
         kinds.join(", "),
         first.source.layer,

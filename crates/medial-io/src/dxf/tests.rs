@@ -82,7 +82,10 @@ fn an_outline_with_a_line_drawn_twice_is_one() {
     let [Ok(triangle)] = &read[..] else { panic!("{read:?}") };
     near(area(triangle), 12.5);
     assert_eq!(triangle.notes[0].code, "duplicate_line");
-    assert!(triangle.notes[0].text.ends_with(": 1 are left out"));
+    assert!(triangle.notes[0].text.ends_with(": 1 left out"));
+    let read = features("0=LINE 8=0 10=0 20=0 11=5 21=0 0=LINE 8=0 10=5 20=0 11=0 21=0");
+    let [Err(error)] = &read[..] else { panic!("{read:?}") };
+    assert!(error.to_string().starts_with("a chain of 1 LINE, 1 repeat left out, on layer `0`"));
 }
 
 #[test]

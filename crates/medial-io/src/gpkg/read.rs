@@ -2,7 +2,8 @@ use super::{blob, quoted};
 use crate::apart::{Rows, read_apart};
 use crate::{Crs, Error, Feature, FeatureError, Json, Layer, Part, attribute};
 use rusqlite::types::ValueRef;
-use rusqlite::{Connection, OpenFlags, OptionalExtension as _, Row};
+use rusqlite::{Connection, ErrorCode, OpenFlags, OptionalExtension as _, Row};
+use std::io::Read as _;
 use std::path::Path;
 
 /// Tables of which the rows are counted, so that few features share the threads.
@@ -35,7 +36,12 @@ pub fn open(path: &Path, layer: Option<&str>) -> Result<Layer<'static>, Error> {
     // What is missing should not be said to be no database.
     std::fs::File::open(path).map_err(|source| Error::Interrupted { source })?;
     let flags = OpenFlags::SQLITE_OPEN_READ_ONLY | OpenFlags::SQLITE_OPEN_NO_MUTEX;
-    let database = Connection::open_with_flags(path, flags).map_err(broken)?;
+    let database = match is_settled(path) {
+        // Else the files of its log would be made beside it, and stay.
+        true => Connection::open_with_flags(immutable(path), flags | OpenFlags::SQLITE_OPEN_URI),
+        false => Connection::open_with_flags(path, flags),
+    };
+    let database = database.map_err(broken)?;
     database
         .execute_batch("PRAGMA trusted_schema = OFF; PRAGMA cell_size_check = ON;")
         .map_err(broken)?;
@@ -51,11 +57,48 @@ pub fn open(path: &Path, layer: Option<&str>) -> Result<Layer<'static>, Error> {
     Ok(Layer { crs, len, ..Layer::of_parts(parts) })
 }
 
-/// What the database says of a failure.
+/// Whether a database keeps a log of its own beside it (WAL), but has nothing in it.
+fn is_settled(path: &Path) -> bool {
+    /// The version of the format to read, in its header, with such a log.
+    const LOGGED: (usize, u8) = (19, 2);
+    let mut header = [0; 20];
+    let read = std::fs::File::open(path).and_then(|mut file| file.read_exact(&mut header));
+    let mut log = path.as_os_str().to_owned();
+    log.push("-wal");
+    let is_empty = std::fs::metadata(log).map_or(true, |found| found.len() == 0);
+    read.is_ok() && header[LOGGED.0] == LOGGED.1 && is_empty
+}
+
+/// The name under which a database is opened as one that nobody changes.
+fn immutable(path: &Path) -> String {
+    let mut name = "file:".to_owned();
+    for &byte in path.as_os_str().as_encoded_bytes() {
+        match byte {
+            b'/' | b'.' | b'-' | b'_' => name.push(byte.into()),
+            byte if byte.is_ascii_alphanumeric() => name.push(byte.into()),
+            // Windows has two more characters that have to stay.
+            b'\\' if cfg!(windows) => name.push('/'),
+            b':' if cfg!(windows) => name.push(':'),
+            byte => name.push_str(&format!("%{byte:02X}")),
+        }
+    }
+    name + "?immutable=1"
+}
+
+/// What the database says of a failure, and what to do.
 fn said(error: &rusqlite::Error) -> String {
-    match error {
+    let why = match error {
         rusqlite::Error::SqliteFailure(_, Some(why)) => why.clone(),
         other => other.to_string(),
+    };
+    match error.sqlite_error_code() {
+        Some(ErrorCode::DatabaseCorrupt) => {
+            format!("{why}; copy it again, or repair it with `.recover` of sqlite3")
+        }
+        Some(ErrorCode::NotADatabase) => {
+            format!("it is no GeoPackage: {why}; name its format with --from")
+        }
+        _ => why,
     }
 }
 

@@ -89,8 +89,16 @@ impl ToSql for Cell {
 /// Writes a GeoPackage of one layer, with an index.
 ///
 /// # Errors
-/// If the system fails.
+/// If the system fails, or the name of the layer is reserved.
 pub fn write(path: &Path, table: &Table<'_>, rows: Rows<'_>) -> Result<Written, WriteError> {
+    if table.name.to_ascii_lowercase().starts_with("sqlite_") {
+        let why = format!(
+            "a layer of a GeoPackage cannot have the name `{}`, as those with `sqlite_` are reserved; name the file \
+             otherwise",
+            table.name
+        );
+        return Err(WriteError::unfit(why));
+    }
     let mut written = Written::default();
     // What was there is no part of it.
     std::fs::File::create(path)?;

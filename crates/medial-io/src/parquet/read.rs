@@ -60,8 +60,13 @@ pub fn open(path: &Path) -> Result<Layer<'static>, Error> {
         SerializedFileReader::new(file)
     });
     let reader = opened
-        .map_err(|_| wrong("it is no Parquet file that can be read".to_owned()))?
-        .map_err(|error| wrong(format!("it is no Parquet file: {}", plain(&error))))?;
+        .map_err(|_| wrong("it is no Parquet file that can be read; copy it again".to_owned()))?
+        .map_err(|error| {
+            wrong(format!(
+                "it is no Parquet file: {}; copy it again if it is cut off",
+                plain(&error)
+            ))
+        })?;
     let metadata = reader.metadata().file_metadata();
     let schema = metadata.schema();
     let pairs = metadata.key_value_metadata().map_or(&[][..], Vec::as_slice);
@@ -98,7 +103,10 @@ pub fn open(path: &Path) -> Result<Layer<'static>, Error> {
             let typed = fields.iter().find(|field| is_geometry(field));
             let named = || fields.iter().find(|field| field.name() == "geometry");
             let field = typed.or_else(named).ok_or_else(|| {
-                wrong("it has no geometries: no metadata `geo`, no column `geometry`".to_owned())
+                wrong(
+                    "it has no geometries: no metadata `geo`, no column `geometry`; write it as GeoParquet"
+                        .to_owned(),
+                )
             })?;
             crs = match field.get_basic_info().logical_type_ref() {
                 Some(LogicalType::Geometry(found)) => geo::of_type(found.crs.as_deref(), pairs),

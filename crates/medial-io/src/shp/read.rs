@@ -1,3 +1,4 @@
+use super::encoding::Encoding;
 use super::{HEADER, dbf, kind, rings};
 use crate::{Crs, Error, Feature, FeatureError, Layer, Note, Part};
 use medial::geom::Point;
@@ -39,11 +40,28 @@ pub fn open(path: &Path) -> Result<Layer<'static>, Error> {
         None => None,
     };
     let crs = beside(path, "prj").and_then(|path| std::fs::read(path).ok());
-    let crs = crs.map(|bytes| String::from_utf8_lossy(&bytes).trim().to_owned());
-    let crs = crs.filter(|wkt| !wkt.is_empty()).map(|wkt| Crs::of_wkt(&wkt));
+    let crs = crs.and_then(|bytes| reference(&bytes, &mut warnings));
     let (at, end) = (HEADER as u64, length(&header));
     let rows = Shapes { shapes, at, end, places, table, n_records: 0, index: 0, is_over: false };
     Ok(Layer { crs, len, warnings, ..Layer::of_parts(rows) })
+}
+
+/// The reference system that a `.prj` names, in UTF-8 or else in Windows-1252; `None` with a warning for a
+/// text that is none.
+fn reference(bytes: &[u8], warnings: &mut Vec<String>) -> Option<Crs> {
+    let text = Encoding::Guessed.decode(bytes);
+    let text = text.trim_start_matches('\u{feff}').trim();
+    if text.is_empty() {
+        return None;
+    }
+    if !text.contains(['[', '(']) {
+        let start: String = text.chars().take(20).collect();
+        warnings.push(format!(
+            "the `.prj` is not used, as `{start}` begins no well-known text of a reference system; write it anew"
+        ));
+        return None;
+    }
+    Some(Crs::of_wkt(text))
 }
 
 /// The length of a file in bytes, as its header has it.
