@@ -52,6 +52,6 @@ fn run() -> Result<Status, Failure> {
         Command::Compare(args) => commands::compare::run(kept(args)),
         Command::Compress(args) => commands::compress::run(kept(args)),
         Command::Segment(args) => commands::segment::run(kept(args)),
-        Command::Image(args) => commands::image::run(kept(args)),
+        Command::Image(args) => commands::image::run(Box::leak(args)),
     }
 }

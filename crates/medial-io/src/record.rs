@@ -294,6 +294,32 @@ mod tests {
     }
 
     #[test]
+    fn several_lines_are_one_geometry_in_every_format() {
+        let p = Point::new;
+        let lines =
+            vec![vec![p(0.0, 0.5), p(1.0, 0.5)], vec![p(2.0, 0.0), p(2.0, 3.0), p(4.0, 3.0)]];
+        let record = Record { values: Vec::new(), shape: Shape::Lines(lines) };
+        let text = |format: Format| {
+            let mut out = Vec::new();
+            write(&mut out, format, &Feature::default(), None, &[], std::slice::from_ref(&record));
+            out
+        };
+        let wkt = "MULTILINESTRING ((0 0.5, 1 0.5), (2 0, 2 3, 4 3))";
+        assert_eq!(text(Format::Wkt), format!("{wkt}\n").into_bytes());
+        let geojson = String::from_utf8(text(Format::GeoJsonLines)).unwrap();
+        let coordinates = "[[[0.0,0.5],[1.0,0.5]],[[2.0,0.0],[2.0,3.0],[4.0,3.0]]]";
+        assert!(
+            geojson.contains(&format!("\"MultiLineString\",\"coordinates\":{coordinates}")),
+            "{geojson}"
+        );
+        let wkb = text(Format::Wkb);
+        // A head and a count, and for each line the same and its points.
+        assert_eq!((wkb[1], wkb[5], wkb.len()), (5, 2, 9 + 2 * 9 + 5 * 16));
+        let dxf = String::from_utf8(text(Format::Dxf)).unwrap();
+        assert_eq!(dxf.matches("LWPOLYLINE").count(), 2, "{dxf}");
+    }
+
+    #[test]
     fn values_are_properties_and_columns() {
         let bytes = written(Format::GeoJsonLines, polygons());
         let text = String::from_utf8(bytes).unwrap();

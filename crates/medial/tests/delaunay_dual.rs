@@ -434,3 +434,40 @@ fn a_smoothed_or_retracted_border_has_fewer_ends_and_the_same_topology() {
     let [pixels, smooth, retracted] = all;
     assert!(20 * smooth < pixels && 20 * retracted < pixels, "{all:?}");
 }
+
+#[test]
+fn the_border_is_polygons_of_samples_and_the_crust_its_edges() {
+    // Two squares of 6 cells, one with a hole of 2.
+    let is_hole = |x: u32, y: u32| (3..5).contains(&x) && (3..5).contains(&y);
+    let is_inside = |x: u32, y: u32| {
+        (1..7).contains(&y) && ((1..7).contains(&x) || (9..15).contains(&x)) && !is_hole(x, y)
+    };
+    let mask = Mask::new(Grid::of_image(16, 8), is_inside).unwrap();
+    let dual = DelaunayDual::of_mask(&mask, &Options::default()).unwrap();
+    let border = dual.border();
+    // Each side of a cell has a sample in its middle, and one before the next.
+    let n = |polygons: &[Vec<Vec<Point>>]| -> Vec<Vec<usize>> {
+        polygons.iter().map(|rings| rings.iter().map(Vec::len).collect()).collect()
+    };
+    assert_eq!(n(&border), [vec![48, 16], vec![48]]);
+    let mut sides: Vec<[[u64; 2]; 2]> = Vec::new();
+    let sorted = |ends: [Point; 2]| {
+        let mut ends = ends.map(|p| [p.x.to_bits(), p.y.to_bits()]);
+        ends.sort_unstable();
+        ends
+    };
+    for ring in border.iter().flatten() {
+        let pairs = ring.iter().zip(ring.iter().cycle().skip(1));
+        sides.extend(pairs.map(|(&a, &b)| sorted([a, b])));
+    }
+    sides.sort_unstable();
+    let mut crust: Vec<_> = dual.crust_edges().map(sorted).collect();
+    crust.sort_unstable();
+    assert_eq!(crust, sides);
+    // Of a domain, whatever the order in which its rings are walked.
+    let domain =
+        Domain::from_polygons(&outline(&mask), &medial::domain::Options::default()).unwrap();
+    let options = Options { spacing: Some(1.0), ..Options::default() };
+    let border = DelaunayDual::new(&domain, &options).unwrap().border();
+    assert_eq!(n(&border), [vec![24, 8], vec![24]]);
+}

@@ -30,10 +30,11 @@ Of --compare they are: change, an outline of each object in either image (white)
 Formats: geojson, geojsonl, csv, wkt, wkb, dxf, svg, png; tables (gpkg, shp, fgb, parquet) of one layer.
 
 Examples:
-  medial image fixtures/images/horse.png --method threshold --limits 50 -o horse.svg
-  medial image fixtures/images/horse.png --method threshold --limits 50 --at 200,-150 --layers axis --to csv
-  medial image fixtures/images/horse.png --method threshold --limits 50 --simplify 1 --engine path_tracing --to wkt
-  medial image fixtures/images/horse.png --method threshold --limits 50 --compare fixtures/images/horse.png --to csv
+  medial image fixtures/images/lake.png -o scene.geojson
+  medial image fixtures/images/lake.png --at 25,-65 --layers delaunay,crust,dual,axis -o lake.svg
+  medial image fixtures/images/atlas.png --clicks fixtures/images/atlas.clicks.csv -o map.png
+  medial image fixtures/images/lake.png --min-pixels 9 --simplify 1 --engine path_tracing --to wkt
+  medial image fixtures/images/lake.png --compare fixtures/images/lake.png --layers change --to csv
 
 Exit status: 0 all done; 1 no usable result; 2 wrong usage; 3 some regions were left out.";
 

@@ -91,7 +91,7 @@ pub enum Command {
     Segment(SegmentArgs),
     /// Compute borders, Delaunay graphs, their duals and the medial axes of regions of colour images, or what
     /// became of regions
-    Image(ImageArgs),
+    Image(Box<ImageArgs>),
 }
 
 /// Where results go.
