@@ -97,6 +97,10 @@ Nothing here is drawn by hand: [the example `gallery`](../../crates/medial-io/ex
 ";
 
 const RIVER: &str = "\
+## Pictures and maps
+
+[Axes of pictures](../images.md) has lakes, a scanned map, clouds and a coast, with the crust, the Delaunay graph and its dual.
+
 ## The river of the README
 
 ![A stretch of river with its medial axis](../river.svg)

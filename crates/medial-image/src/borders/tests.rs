@@ -1,0 +1,138 @@
+use super::simplifier::squared_distance;
+use super::*;
+use crate::field::Field;
+use crate::labels::Labels;
+use crate::selection::Selection;
+use medial::geom::Point;
+use medial::raster::outline;
+use std::collections::BTreeSet;
+
+/// All regions of an image of numbers.
+fn objects(columns: u32, class: &[u32]) -> Objects {
+    let grid = Grid::of_image(columns, class.len() as u32 / columns);
+    let labels = Labels::connected(grid, class, |_, _| true);
+    let field = Field::new(grid, class.iter().map(|_| [0.0; 3])).unwrap();
+    let chosen = Selection::of(0..labels.len());
+    Objects::new(&labels, &labels.regions(&field), &chosen)
+}
+
+/// The area of a ring that runs with the shape on its left, seen with rows going up.
+fn area(ring: &[Point]) -> f64 {
+    let pairs = ring.iter().zip(ring.iter().cycle().skip(1));
+    -0.5 * pairs.map(|(a, b)| a.cross(*b)).sum::<f64>()
+}
+
+fn sides(ring: &[Point]) -> impl Iterator<Item = (Point, Point)> + '_ {
+    ring.iter().copied().zip(ring.iter().copied().cycle().skip(1))
+}
+
+fn distance(p: Point, rings: &[Vec<Point>]) -> f64 {
+    let squares = rings.iter().flat_map(|ring| sides(ring));
+    let squares = squares.map(|(a, b)| squared_distance([p.x, p.y], [a.x, a.y], [b.x, b.y]));
+    squares.fold(f64::INFINITY, f64::min).sqrt()
+}
+
+/// Spots of noise in all sizes.
+fn noise(columns: u32, rows: u32) -> Vec<u32> {
+    let wave = |x: f64, y: f64| (0.9 * x).sin() + (0.7 * y + 0.3 * x).sin() + (0.21 * y).cos();
+    let at = |k: u32| (f64::from(k % columns), f64::from(k / columns));
+    let value = |(x, y): (f64, f64)| wave(x, y) + 1.5 * wave(0.13 * x + 1.0, 0.17 * y);
+    (0..columns * rows).map(|k| (value(at(k)) + 9.0).floor() as u32).collect()
+}
+
+#[test]
+fn steps_become_a_slope() {
+    // A triangle of pixels in the corner of the image.
+    let class: Vec<u32> = (0..64).map(|k| u32::from(k % 8 + k / 8 < 7)).collect();
+    let objects = objects(8, &class);
+    let [exact, simple] = [0.0, 0.8].map(|d| objects.polygons_between(0, &objects.borders(d)));
+    assert_eq!(exact[0][0].len(), 2 * 7 + 2 - 1 + 1);
+    // The corner of the image, both ends of the slope on its frame, and at most one between.
+    assert!((3..=4).contains(&simple[0][0].len()), "{simple:?}");
+    let other = objects.polygons_between(1, &objects.borders(0.8));
+    let both: f64 = [&simple, &other].iter().map(|p| area(&p[0][0])).sum();
+    assert_eq!(both.abs(), 64.0);
+}
+
+#[test]
+fn a_pixel_stays_a_polygon_whatever_the_tolerance() {
+    let mut class = vec![0; 25];
+    class[12] = 1;
+    let objects = objects(5, &class);
+    let borders = objects.borders(100.0);
+    let [ground, spot] = [0, 1].map(|k| objects.polygons_between(k, &borders));
+    assert_eq!((ground[0].len(), ground[0][0].len()), (2, 4));
+    assert_eq!((ground[0][1].len(), spot[0][0].len()), (3, 3));
+}
+
+#[test]
+fn an_island_in_a_bay_stays_outside() {
+    // A bay two pixels deep with an island in it, which a straight border would take in.
+    let rows = ["#########", "#.......#", "#..###..#", "#.......#", "#########", "#########"];
+    let class: Vec<u32> = rows.iter().flat_map(|row| row.bytes()).map(u32::from).collect();
+    let objects = objects(9, &class);
+    let borders = objects.borders(50.0);
+    let polygons: Vec<_> = (0..3).map(|k| objects.polygons_between(k, &borders)).collect();
+    let areas: Vec<f64> =
+        polygons.iter().map(|p| p.iter().flatten().map(|ring| area(ring)).sum()).collect();
+    assert!(areas.iter().all(|&area| area > 0.0), "{areas:?}");
+    assert_eq!(areas.iter().sum::<f64>(), 54.0);
+}
+
+#[test]
+fn simplified_borders_fit_one_another_and_keep_their_distance() {
+    let (columns, rows) = (70, 50);
+    let class = noise(columns, rows);
+    let objects = objects(columns, &class);
+    assert!(objects.all().len() > 60);
+    let n_corners = |polygons: &Polygons| polygons.iter().flatten().map(Vec::len).sum::<usize>();
+    let mut before = usize::MAX;
+    for tolerance in [0.0, 0.75, 1.5, 4.0] {
+        let borders = objects.borders(tolerance);
+        let mut total = 0.0;
+        let mut n = 0;
+        let mut ways: BTreeSet<[[u64; 2]; 2]> = BTreeSet::new();
+        for object in 0..objects.all().len() as u32 {
+            let polygons = objects.polygons_between(object, &borders);
+            let exact = objects.polygons(object);
+            n += n_corners(&polygons);
+            let shape = |polygons: &Polygons| polygons.iter().map(Vec::len).collect::<Vec<_>>();
+            assert_eq!(shape(&polygons), shape(&exact), "the same rings");
+            for (rings, exact) in polygons.iter().zip(&exact) {
+                for (ring, exact) in rings.iter().zip(exact) {
+                    assert_eq!(area(ring) > 0.0, area(exact) > 0.0);
+                    total += area(ring);
+                }
+                let is_near = |p: &Point, rings| distance(*p, rings) <= tolerance + 1e-9;
+                assert!(exact.iter().flatten().all(|p| is_near(p, rings)));
+                let middles = rings.iter().flat_map(|ring| sides(ring));
+                let middles = middles.map(|(a, b)| (a + b) * 0.5);
+                assert!(middles.into_iter().all(|p| is_near(&p, exact)));
+                for (a, b) in rings.iter().flat_map(|ring| sides(ring)) {
+                    // Each side is run through once each way, or lies on the frame.
+                    let way = [a, b].map(|p| [p.x.to_bits(), p.y.to_bits()]);
+                    assert!(ways.insert(way), "{a:?} {b:?}");
+                }
+            }
+        }
+        assert_eq!(total, f64::from(columns * rows), "they fill the image");
+        let is_frame = |[[a, c], [b, d]]: [[u64; 2]; 2]| {
+            let [a, b, c, d] = [a, b, c, d].map(f64::from_bits);
+            (a == b && (a == 0.0 || a == f64::from(columns)))
+                || (c == d && (c == 0.0 || c == -f64::from(rows)))
+        };
+        assert!(ways.iter().all(|&[a, b]| ways.contains(&[b, a]) || is_frame([a, b])));
+        assert!(n < before, "{n} corners at {tolerance}");
+        before = n;
+    }
+}
+
+#[test]
+fn without_tolerance_the_outline_gains_only_corners_of_others() {
+    let objects = objects(3, &[0, 0, 0, 1, 1, 2]);
+    let exact = objects.polygons_between(0, &objects.borders(0.0));
+    let mask = objects.mask(0).unwrap();
+    let corners = &outline(&mask)[0][0];
+    assert_eq!(exact[0][0].len(), corners.len() + 1);
+    assert!(exact[0][0].contains(&Point::new(2.0, -1.0)));
+}
