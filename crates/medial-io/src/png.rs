@@ -23,7 +23,7 @@ pub fn write(scenes: &[Scene], options: &Options) -> Result<Vec<u8>, Error> {
 /// A picture with layers over it as PNG.
 ///
 /// # Errors
-/// As [`write`](fn@write).
+/// As [`write()`].
 pub fn write_overlay(overlay: &Overlay, options: &Options) -> Result<Vec<u8>, Error> {
     let options = svg::painted_options(options);
     let tree = parsed(&svg::drawn(overlay, &options, false))?;
