@@ -471,3 +471,25 @@ fn the_border_is_polygons_of_samples_and_the_crust_its_edges() {
     let border = DelaunayDual::new(&domain, &options).unwrap().border();
     assert_eq!(n(&border), [vec![24, 8], vec![24]]);
 }
+
+#[test]
+fn rounded_sizes_of_cells_part_no_circle() {
+    let mask = |cell: [f64; 2]| {
+        let mut random = Random(11);
+        let bits: Vec<bool> = (0..60 * 40).map(|_| random.below(3) > 0).collect();
+        let grid = Grid { origin: Point::new(-105.5, 40.25), cell, columns: 60, rows: 40 };
+        Mask::new(grid, |x, y| bits[(y * 60 + x) as usize]).unwrap()
+    };
+    let counts = |cell: [f64; 2]| {
+        let mask = mask(cell);
+        let dual = DelaunayDual::of_mask(&mask, &Options::default()).unwrap();
+        (dual.nodes().len(), dual.edges().count())
+    };
+    let square = counts([1.0, -1.0]);
+    assert_eq!(counts([0.001_500_000_000_000_012_8, -0.001_499_999_999_999_999_6]), square);
+    // Three tenths by one, and thirds by ninths, are no better known.
+    let oblong = counts([3.0, -1.0]);
+    assert_ne!(oblong, square);
+    assert_eq!(counts([0.3, -0.1]), oblong);
+    assert_eq!(counts([1.0 / 3.0, -1.0 / 9.0]), oblong);
+}

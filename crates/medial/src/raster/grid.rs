@@ -76,8 +76,18 @@ impl Grid {
         (self.cell[0] < 0.0) != (self.cell[1] < 0.0)
     }
 
+    /// Whether cells are squares, up to a hundredth of a cell over all of the grid: georeferences are rounded.
+    pub(crate) fn is_square(&self) -> bool {
+        let [width, height] = self.cell.map(f64::abs);
+        let n = f64::from(self.columns.max(self.rows));
+        (width - height).abs() * n <= 0.01 * width
+    }
+
     /// The square of the height of a cell in widths.
     pub(crate) fn aspect(&self) -> f64 {
+        if self.is_square() {
+            return 1.0;
+        }
         let ratio = self.cell[1] / self.cell[0];
         ratio * ratio
     }

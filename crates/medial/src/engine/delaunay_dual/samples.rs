@@ -246,11 +246,14 @@ pub(super) enum Plane {
 }
 
 impl Plane {
-    /// The plane of the cells of a grid: columns and rows themselves if cells are squares.
+    /// The plane of the cells of a grid: columns and rows, the longer sides of cells times their length in shorter ones.
+    /// That is a short binary fraction, so that points of a lattice lie on one, and what is on one circle stays there.
     pub fn of_cells(grid: &Grid) -> Self {
+        const STEPS: f64 = (1 << 24) as f64;
         let [width, height] = grid.cell.map(f64::abs);
-        let is_square = width == height;
-        let (factors, unit) = if is_square { ([1.0; 2], width) } else { ([width, height], 1.0) };
+        let unit = width.min(height);
+        let factor = |side: f64| (side / unit * STEPS).round() / STEPS;
+        let factors = if grid.is_square() { [1.0; 2] } else { [factor(width), factor(height)] };
         Self::Cells { grid: *grid, factors, unit }
     }
 
