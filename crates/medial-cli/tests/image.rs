@@ -308,6 +308,32 @@ fn what_became_of_regions_is_told() {
     assert_eq!(run.status, Some(0), "{}", run.errors);
 }
 
+/// The changes between two pictures, one row of CSV each, as `change` and the pixels before and after.
+fn changes(before: &str, after: &str, more: &[&str]) -> Vec<[String; 3]> {
+    let compared = ["--compare", after, "--layers", "change", "--to", "csv"];
+    let run = medial(&words(before, &[&compared, more].concat()));
+    assert_eq!(run.status, Some(0), "{}", run.errors);
+    let mut rows = csv::Reader::from_reader(run.text().as_bytes());
+    let names = rows.headers().unwrap().clone();
+    let place = |name: &str| names.iter().position(|other| other == name).unwrap();
+    let places = ["change", "pixels", "pixels_after"].map(place);
+    rows.records().map(|row| places.map(|k| row.as_ref().unwrap()[k].to_owned())).collect()
+}
+
+#[test]
+fn all_that_is_chosen_may_vanish_or_appear() {
+    let folder = tempfile::tempdir().unwrap();
+    let wet = picture(folder.path(), "wet.png", &["......", ".rr...", "......"]);
+    let dry = picture(folder.path(), "dry.png", &["......", "......", "......"]);
+    let red = ["--select-color", "c81e1e"];
+    assert_eq!(changes(&wet, &dry, &red), [["vanished", "2", "0"]]);
+    assert_eq!(changes(&dry, &wet, &red), [["appeared", "0", "2"]]);
+    let run = medial(&words(&dry, &[&["--compare", &dry][..], &red].concat()));
+    assert_eq!((run.status, run.text()), (Some(1), ""));
+    let why = format!("none of its 1 regions is chosen, nor of the 1 of {dry}; see them");
+    assert!(run.errors.contains(&why), "{}", run.errors);
+}
+
 #[test]
 fn options_that_contradict_one_another_are_told() {
     let (_folder, bars) = folder_with_bars();

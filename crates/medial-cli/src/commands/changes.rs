@@ -44,6 +44,9 @@ pub fn run(
 ) -> Result<Status, Failure> {
     let after = regions::parted(&args.segmentation, other, &mut run, false)?;
     let objects_after = timed(&mut run.stages.operations, || after.chosen(&args.choice))?;
+    if objects.all().is_empty() && objects_after.all().is_empty() {
+        return Err(before.unchosen(Some(&after)));
+    }
     let changes = timed(&mut run.stages.operations, || {
         Changes::new(objects, &objects_after, args.min_overlap)
     });

@@ -69,6 +69,9 @@ pub fn run(args: &'static ImageArgs) -> Result<Status, Failure> {
     if let Some(other) = &args.compare {
         return changes::run(args, run, format, &parted, &objects, other);
     }
+    if objects.all().is_empty() {
+        return Err(parted.unchosen(None));
+    }
     let Parted { input, crs, are_bands, colours, .. } = parted;
     let (grid, objects) = (*objects.grid(), Arc::new(objects));
     let cell = grid.cell_size();

@@ -95,7 +95,7 @@ fn within<T: Send + 'static>(
 }
 
 impl Parted {
-    /// The regions that are chosen, as objects.
+    /// The regions that are chosen, as objects; there may be none.
     pub fn chosen(&self, choice: &Choice) -> Result<Objects, Failure> {
         let Choice { min_pixels, max_pixels, select_color, select_tolerance, .. } = choice;
         let has_filter = min_pixels.is_some() || max_pixels.is_some() || !select_color.is_empty();
@@ -121,14 +121,18 @@ impl Parted {
                 .click(&self.labels, click)
                 .map_err(|error| self.input.wrong(format_args!("{place}: {error}")))?;
         }
-        if chosen.objects().is_empty() {
-            let n = self.regions.len();
-            let why = format!(
-                "none of its {n} regions is chosen; see them with `medial segment`, and choose others"
-            );
-            return Err(self.input.wrong(why));
-        }
         Ok(Objects::new(&self.labels, &self.regions, &chosen))
+    }
+
+    /// That no region is chosen, here or in another image.
+    pub fn unchosen(&self, other: Option<&Self>) -> Failure {
+        let n = self.regions.len();
+        let beside = other.map_or_else(String::new, |other| {
+            format!(", nor of the {} of {}", other.regions.len(), other.input.name)
+        });
+        self.input.wrong(format_args!(
+            "none of its {n} regions is chosen{beside}; see them with `medial segment`, and choose others"
+        ))
     }
 
     /// All clicks, each with the place where it is said.
