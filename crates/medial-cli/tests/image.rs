@@ -136,6 +136,31 @@ fn points_choose_regions_and_combine_them() {
 }
 
 #[test]
+fn objects_that_meet_at_a_corner_are_polygons_of_their_own() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = picture(folder.path(), "corner.png", &["....", ".r..", "..g.", "...."]);
+    let both = ["--at", "1.5,-1.5", "--at", "2.5,-2.5", "--combine", "--layers", "border"];
+    for more in [&[][..], &["--simplify", "0.1"]] {
+        let run = medial(&words(&scene, &[&both, more].concat()));
+        assert_eq!(run.status, Some(0), "{}", run.errors);
+        let border = &features(run.text())[0]["geometry"];
+        assert_eq!(border["type"], "MultiPolygon");
+        let polygons = border["coordinates"].as_array().unwrap();
+        // Two squares, of five points each with the last one.
+        let n: Vec<usize> = polygons.iter().map(|p| p[0].as_array().unwrap().len()).collect();
+        assert_eq!(n, [5, 5], "{border}");
+    }
+    // The same of what changes.
+    let before = picture(folder.path(), "before.png", &["rrrr", "r.rr", "rr.r", "rrrr"]);
+    let after = picture(folder.path(), "after.png", &["rrrr"; 4]);
+    let red = ["--select-color", "c81e1e", "--compare", &after, "--layers", "gained"];
+    let run = medial(&words(&before, &red));
+    assert_eq!(run.status, Some(0), "{}", run.errors);
+    let gained = &features(run.text())[0]["geometry"];
+    assert_eq!(gained["coordinates"].as_array().unwrap().len(), 2, "{gained}");
+}
+
+#[test]
 fn sizes_and_colours_choose_regions() {
     let (_folder, bars) = folder_with_bars();
     let chosen = |more: &[&str]| {

@@ -7,7 +7,7 @@
 
 use crate::labels::Labels;
 use crate::objects::Objects;
-use crate::pixels::{Pixels, Polygons, Window};
+use crate::pixels::{Pixels, Polygons, polygons};
 use medial::raster::Grid;
 use std::collections::BTreeMap;
 
@@ -33,7 +33,9 @@ pub enum ChangeError {
         shift: [f64; 2],
     },
     /// They have no pixel in common.
-    #[error("the images have no pixel with data in common, so nothing can be compared")]
+    #[error(
+        "the images have no pixel with data in common, so nothing can be compared; name images of one place"
+    )]
     Apart,
 }
 
@@ -95,6 +97,9 @@ impl Changes {
     /// If the pixels of both images are not the same in size and place, or none is in both.
     pub fn new(before: &Objects, after: &Objects, least: f64) -> Result<Self, ChangeError> {
         let (first, second) = (before.grid(), after.grid());
+        if are_apart(first, second) {
+            return Err(ChangeError::Apart);
+        }
         let n = f64::from(first.columns.max(first.rows).max(second.columns).max(second.rows));
         let is_same =
             |k: usize| (second.cell[k] - first.cell[k]).abs() * n <= STRETCH * first.cell[k].abs();
@@ -176,7 +181,7 @@ impl Changes {
         &self.list
     }
 
-    /// The polygons of a part of each change, in their order. Linear in pixels and boxes of objects.
+    /// The polygons of a part of each change, in their order, one for what hangs together by sides. Linear in pixels and boxes of objects.
     pub fn polygons(&self, part: Part) -> impl Iterator<Item = Polygons> + '_ {
         let number = |(&before, &after): (&u32, &u32)| match part {
             Part::Kept if before == after => before,
@@ -199,10 +204,19 @@ impl Changes {
                 lists.iter().flat_map(|list| list.of(change)).copied().collect();
             pixels.sort_unstable();
             pixels.dedup();
-            let window = Window::around(&pixels, self.grid.columns);
-            window.map_or_else(Vec::new, |window| window.polygons(&self.grid))
+            polygons(&pixels, &self.grid)
         })
     }
+}
+
+/// Whether two images have no part of the plane in common.
+fn are_apart(first: &Grid, second: &Grid) -> bool {
+    let ends = [(0, 0), (second.columns, second.rows)].map(|(x, y)| second.corner(x, y));
+    let [a, b] = ends.map(|end| first.locate(end));
+    (0..2).any(|k| {
+        let n = f64::from([first.columns, first.rows][k]);
+        a[k].min(b[k]) >= n - OFF || a[k].max(b[k]) <= OFF
+    })
 }
 
 /// No object.
@@ -329,7 +343,10 @@ mod tests {
         let before = objects(&["aa"], at(0.0, 0.0));
         let shifted = Changes::new(&before, &objects(&["aa"], at(0.5, 0.0)), 0.0);
         assert_eq!(shifted, Err(ChangeError::Shift { shift: [0.5, 0.0] }));
-        let apart = Changes::new(&before, &objects(&["aa"], at(7.0, 0.0)), 0.0);
-        assert_eq!(apart, Err(ChangeError::Apart));
+        // However they lie.
+        for far in [at(7.0, 0.0), at(7.3, 0.0), at(0.0, 1.5), at(-2.0, 0.0), at(1e12, 0.5)] {
+            let apart = Changes::new(&before, &objects(&["aa"], far), 0.0);
+            assert_eq!(apart, Err(ChangeError::Apart), "{far:?}");
+        }
     }
 }
