@@ -360,6 +360,45 @@ fn all_that_is_chosen_may_vanish_or_appear() {
 }
 
 #[test]
+fn images_of_other_kinds_and_systems_are_not_compared() {
+    let folder = tempfile::tempdir().unwrap();
+    let name = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    let [east, west, bare, heights] = ["east.tif", "west.tif", "bare.tif", "heights.tif"].map(name);
+    let rows = ["....", ".rr.", "...."];
+    for (file, epsg) in [(&east, 32633), (&west, 32632), (&bare, 0)] {
+        geotiff(Path::new(file), &rows, epsg);
+    }
+    geotiff_of_numbers(Path::new(&heights), &[&[1.0, 2.0, 2.0, 1.0]; 3], 32633);
+    for (after, why) in [
+        (&west, "the reference system is EPSG:32633, that of "),
+        (&heights, "the image has colours, "),
+    ] {
+        let run = medial(&words(&east, &["--compare", after]));
+        assert_eq!((run.status, run.text()), (Some(1), ""), "{}", run.errors);
+        assert!(run.errors.contains(why) && run.errors.lines().count() == 1, "{}", run.errors);
+    }
+    // What has no system may be in any.
+    assert_eq!(changes(&east, &bare, &["--max-pixels", "9"]), [["same", "2", "2"]]);
+}
+
+#[test]
+fn what_only_one_image_shows_is_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let wide = picture(folder.path(), "wide.png", &["......", ".r..r.", "......"]);
+    let narrow = picture(folder.path(), "narrow.png", &["...", ".r.", "..."]);
+    let more = ["--select-color", "c81e1e", "--layers", "change", "--to", "csv"];
+    let run = medial(&words(&wide, &[&["--compare", &narrow][..], &more].concat()));
+    assert_eq!((run.status, run.text().lines().count()), (Some(0), 2), "{}", run.errors);
+    let why = "wide.png: 1 of the 2 pixels of its objects lie where only one image has data, 1 objects as a whole";
+    assert!(run.errors.contains(why) && run.errors.lines().count() == 1, "{}", run.errors);
+    let run = medial(&words(&narrow, &[&["--compare", &wide][..], &more].concat()));
+    assert!(run.errors.contains("1 of the 2 pixels of the objects of "), "{}", run.errors);
+    // No warning where nothing is left out.
+    let run = medial(&words(&wide, &[&["--compare", &wide][..], &more].concat()));
+    assert_eq!((run.status, run.errors.as_str()), (Some(0), ""));
+}
+
+#[test]
 fn options_that_contradict_one_another_are_told() {
     let (_folder, bars) = folder_with_bars();
     for (more, why) in [
@@ -571,31 +610,48 @@ fn images_without_data_or_cut_off_are_told() {
     assert!(run.errors.contains("no image"), "{}", run.errors);
 }
 
-/// A GeoTIFF of letters, `r` red and others blue, with pixels of 2 by 2 from (100, 50) on downwards.
-fn geotiff(path: &Path, rows: &[&str]) {
-    let (columns, n_rows) = (rows[0].len() as u32, rows.len() as u32);
+/// A GeoTIFF of letters, `r` red and others blue, with pixels of 2 by 2 from (100, 50) on downwards, in a reference
+/// system of EPSG, or none for 0.
+fn geotiff(path: &Path, rows: &[&str], epsg: u16) {
     let colour = |letter: u8| if letter == b'r' { [200, 30, 30] } else { [30, 40, 180] };
     let pixels: Vec<u8> = rows.iter().flat_map(|row| row.bytes()).flat_map(colour).collect();
+    tiff(path, [rows[0].len() as u32, rows.len() as u32], 3, &pixels, epsg);
+}
+
+/// One of real numbers.
+fn geotiff_of_numbers(path: &Path, rows: &[&[f32]], epsg: u16) {
+    let pixels: Vec<u8> = rows.iter().copied().flatten().flat_map(|v| v.to_le_bytes()).collect();
+    tiff(path, [rows[0].len() as u32, rows.len() as u32], 1, &pixels, epsg);
+}
+
+/// One of three bytes a pixel, or of one number.
+fn tiff(path: &Path, [columns, n_rows]: [u32; 2], each: u32, pixels: &[u8], epsg: u16) {
     let doubles = [2.0, 2.0, 0.0, 0.0, 0.0, 0.0, 100.0, 50.0, 0.0_f64];
-    // A header of 8 bytes, the pixels, their depths, the doubles, then the directory.
+    let keys = [1, 1, 0, 1, 3072, 0, 1, epsg];
+    // A header of 8 bytes, the pixels, their depths, the doubles, the keys, then the directory.
     let [depths, numbers] = [8 + pixels.len() as u32, 14 + pixels.len() as u32];
-    let directory = numbers + 72;
-    let mut bytes = [b"II\x2a\0", &directory.to_le_bytes()[..], &pixels].concat();
+    let keys_at = numbers + 72;
+    let directory = keys_at + 16;
+    let mut bytes = [b"II\x2a\0", &directory.to_le_bytes()[..], pixels].concat();
     bytes.extend([8_u16; 3].into_iter().flat_map(u16::to_le_bytes));
     bytes.extend(doubles.into_iter().flat_map(f64::to_le_bytes));
+    bytes.extend(keys.into_iter().flat_map(u16::to_le_bytes));
+    let is_real = each == 1;
     // Tag, kind (3 for 16 bits, 4 for 32, 12 for doubles), count, and a value or where it is.
-    let entries: [(u16, u16, u32, u32); 11] = [
+    let entries: [(u16, u16, u32, u32); 13] = [
         (256, 4, 1, columns),
         (257, 4, 1, n_rows),
-        (258, 3, 3, depths),
+        (258, 3, each, if is_real { 32 } else { depths }),
         (259, 3, 1, 1),
-        (262, 3, 1, 2),
+        (262, 3, 1, if is_real { 1 } else { 2 }),
         (273, 4, 1, 8),
-        (277, 3, 1, 3),
+        (277, 3, 1, each),
         (278, 4, 1, n_rows),
         (279, 4, 1, pixels.len() as u32),
+        (339, 3, 1, if is_real { 3 } else { 1 }),
         (33550, 12, 3, numbers),
         (33922, 12, 6, numbers + 24),
+        (34735, 3, 8, keys_at),
     ];
     bytes.extend((entries.len() as u16).to_le_bytes());
     for (tag, kind, count, value) in entries {
@@ -610,7 +666,7 @@ fn geotiff(path: &Path, rows: &[&str]) {
 fn points_and_layers_are_in_the_plane_of_a_georeferenced_image() {
     let folder = tempfile::tempdir().unwrap();
     let scene = folder.path().join("scene.tif");
-    geotiff(&scene, &["......", ".rrrr.", ".rrrr.", "......"]);
+    geotiff(&scene, &["......", ".rrrr.", ".rrrr.", "......"], 0);
     let run = medial(&words(scene.to_str().unwrap(), &["--at", "105,47", "--prune", "none"]));
     assert_eq!(run.status, Some(0), "{}", run.errors);
     let layers = by_layer(run.text());

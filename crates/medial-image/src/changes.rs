@@ -50,6 +50,15 @@ pub struct Change {
     pub cells: [u64; 3],
 }
 
+/// What of the objects of an image is not compared.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Uncompared {
+    /// How many of their pixels.
+    pub cells: u64,
+    /// How many objects as a whole, which are in no change.
+    pub objects: u64,
+}
+
 /// Which pixels of a change.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Part {
@@ -71,6 +80,7 @@ pub struct Changes {
     /// For each pixel the numbers of the changes that it belongs to before and after.
     numbers: [Vec<u32>; 2],
     list: Vec<Change>,
+    uncompared: [Uncompared; 2],
 }
 
 /// How far pixels may lie from those of the other image, in columns or rows.
@@ -155,6 +165,13 @@ impl Changes {
         if n_compared == 0 {
             return Err(ChangeError::Apart);
         }
+        let uncompared = [(before, &totals[0]), (after, &totals[1])].map(|(objects, totals)| {
+            let all: u64 = objects.all().iter().map(|object| object.whole.cells).sum();
+            Uncompared {
+                cells: all - totals.iter().sum::<u64>(),
+                objects: totals.iter().filter(|&&n| n == 0).count() as u64,
+            }
+        });
         let list = matched(&pairs, &totals, least);
         // Numbers of objects become numbers of changes.
         for (side, numbers) in numbers.iter_mut().enumerate() {
@@ -166,13 +183,19 @@ impl Changes {
             }
             numbers.iter_mut().filter(|k| **k != NONE).for_each(|k| *k = of[*k as usize]);
         }
-        Ok(Self { grid, numbers, list })
+        Ok(Self { grid, numbers, list, uncompared })
     }
 
     /// What is common to both images.
     #[must_use]
     pub fn grid(&self) -> &Grid {
         &self.grid
+    }
+
+    /// What of the objects of the first image and of the second one is not compared, as the other has no data there.
+    #[must_use]
+    pub fn uncompared(&self) -> [Uncompared; 2] {
+        self.uncompared
     }
 
     /// All changes: by the number of the object before, then what appeared by its number.
@@ -336,6 +359,12 @@ mod tests {
             [(Some(0), Some(0), [1, 0, 0]), (Some(1), Some(1), [1, 0, 0])],
             "columns 1 and 3 of the first image"
         );
+        // Columns 0 and 2, and the last two of the second image.
+        let uncompared = [(2, 0), (2, 0)].map(|(cells, objects)| Uncompared { cells, objects });
+        assert_eq!(changes.uncompared(), uncompared);
+        let beside = Changes::new(&before, &objects(&["b.c"], at(3.0, 0.0)), 0.0).unwrap();
+        let uncompared = [(3, 1), (1, 1)].map(|(cells, objects)| Uncompared { cells, objects });
+        assert_eq!(beside.uncompared(), uncompared);
     }
 
     #[test]

@@ -39,7 +39,7 @@ mod selection;
 mod simple;
 
 pub use borders::Borders;
-pub use changes::{Change, ChangeError, Changes, Part};
+pub use changes::{Change, ChangeError, Changes, Part, Uncompared};
 pub use colour::{luv, srgb};
 pub use feature_space::{Analysis, Resolution, feature_space};
 pub use field::{Field, FieldError};

@@ -43,6 +43,7 @@ pub fn run(
     other: &Path,
 ) -> Result<Status, Failure> {
     let after = regions::parted(&args.segmentation, other, &mut run, false)?;
+    check_alike(before, &after)?;
     let objects_after = timed(&mut run.stages.operations, || after.chosen(&args.choice))?;
     if objects.all().is_empty() && objects_after.all().is_empty() {
         return Err(before.unchosen(Some(&after)));
@@ -93,7 +94,8 @@ pub fn run(
         Feature { index, polygons: vec![vec![ring]], polygonal: true, ..Feature::default() }
     };
     let features: Vec<Feature> = (0..records.len()).map(feature).collect();
-    let layer = Layer::of_features(before.crs.clone(), features.into_iter());
+    let mut layer = Layer::of_features(before.crs.clone(), features.into_iter());
+    layer.warnings.extend(uncompared(&changes, described.objects, &after));
     plan.run_on(
         run,
         &before.input.name,
@@ -121,6 +123,43 @@ pub fn run(
             })
         },
     )
+}
+
+/// Fails unless two images are of one kind and, as far as that is known, in one reference system.
+fn check_alike(before: &Parted, after: &Parted) -> Result<(), Failure> {
+    let name = &after.input.name;
+    let wrong = |why: std::fmt::Arguments<'_>| Err(before.input.wrong(why));
+    if let (Some(crs), Some(other)) = (&before.crs, &after.crs)
+        && crs.differs_from(other)
+    {
+        return wrong(format_args!(
+            "the reference system is {crs}, that of {name} {other}; project one image into the system of the other"
+        ));
+    }
+    if before.are_bands != after.are_bands {
+        let kind = |parted: &Parted| if parted.are_bands { "bands" } else { "colours" };
+        let (kind, other) = (kind(before), kind(after));
+        return wrong(format_args!(
+            "the image has {kind}, {name} {other}; compare two of a kind, or name bands of both with --bands"
+        ));
+    }
+    Ok(())
+}
+
+/// What of the objects of two images is not compared, if there is such.
+fn uncompared(changes: &Changes, objects: [&Objects; 2], after: &Parted) -> Vec<String> {
+    let whose = ["its objects".to_owned(), format!("the objects of {}", after.input.name)];
+    let told = changes.uncompared().into_iter().zip(objects).zip(whose);
+    told.filter(|((left_out, _), _)| left_out.cells > 0)
+        .map(|((left_out, objects), whose)| {
+            let all: u64 = objects.all().iter().map(|object| object.whole.cells).sum();
+            let (cells, n) = (left_out.cells, left_out.objects);
+            format!(
+                "{cells} of the {all} pixels of {whose} lie where only one image has data, {n} objects as a whole; \
+                 they are not compared"
+            )
+        })
+        .collect()
 }
 
 /// The objects of both images.
