@@ -55,7 +55,8 @@ pub struct ImageArgs {
     #[command(flatten)]
     pub pruning: Pruning,
     /// Simplify the borders between regions within this distance, in units of the input: once for both sides, so
-    /// that regions still fit, and without a change of topology
+    /// that regions still fit, and without a change of topology; axes of delaunay_dual end where borders touch
+    /// themselves in a corner of 180 degrees or more
     #[arg(long, value_name = "D", value_parser = positive, allow_negative_numbers = true)]
     pub simplify: Option<f64>,
     /// What is written, separated by commas: border, delaunay, crust, dual, axis; by default border and axis. Of
