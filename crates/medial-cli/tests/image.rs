@@ -458,6 +458,22 @@ fn reports_timings_and_progress_are_those_of_other_commands() {
 }
 
 #[test]
+fn rings_that_the_command_makes_are_not_reported_as_reversed() {
+    let (folder, bars) = folder_with_bars();
+    let report = folder.path().join("report.json");
+    // Some of them with holes.
+    for more in [&[][..], &["--simplify", "0.2"]] {
+        let run = medial(&words(&bars, &[&["--report", report.to_str().unwrap()], more].concat()));
+        assert_eq!(run.status, Some(0), "{}", run.errors);
+        let told: Value = serde_json::from_slice(&fs::read(&report).unwrap()).unwrap();
+        let features = told["features"].as_array().unwrap();
+        let entries = features.iter().flat_map(|f| f["entries"].as_array().unwrap());
+        let codes: Vec<&Value> = entries.map(|entry| &entry["code"]).collect();
+        assert!(codes.iter().all(|&code| code == "sampling"), "{codes:?}");
+    }
+}
+
+#[test]
 fn an_image_that_takes_too_long_to_part_is_given_up() {
     let folder = tempfile::tempdir().unwrap();
     let row = "r.g.w".repeat(60);

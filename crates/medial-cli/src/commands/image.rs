@@ -143,16 +143,22 @@ fn layer(objects: &Arc<Objects>, crs: Option<Crs>, simplify: Option<f64>) -> Lay
     let borders = simplify.map(|tolerance| objects.borders(tolerance));
     let n = objects.all().len();
     let objects = Arc::clone(objects);
+    // Outlines have the shape on the left where rows go up.
+    let [width, height] = objects.grid().cell;
+    let is_mirrored = (width < 0.0) != (height < 0.0);
     let feature = move |index: usize| {
         let mask = match borders {
             Some(_) => None,
             None => objects.mask(index as u32).ok().map(Arc::new),
         };
-        let polygons = match (&borders, &mask) {
+        let mut polygons = match (&borders, &mask) {
             (Some(borders), _) => objects.polygons_between(index as u32, borders),
             (None, Some(mask)) => outline(mask),
             (None, None) => Vec::new(),
         };
+        if is_mirrored {
+            polygons.iter_mut().flatten().for_each(|ring| ring[1..].reverse());
+        }
         Feature {
             index,
             polygons,
