@@ -697,3 +697,41 @@ fn points_and_layers_are_in_the_plane_of_a_georeferenced_image() {
     assert_eq!(outside.status, Some(1));
     assert!(outside.errors.contains("which reaches from 100,42 to 112,50"), "{}", outside.errors);
 }
+
+#[test]
+fn pictures_tell_where_they_lie() {
+    let folder = tempfile::tempdir().unwrap();
+    let name = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    let [scene, bare] = [name("scene.tif"), name("bare.tif")];
+    geotiff(Path::new(&scene), &["......", ".rrrr.", "......"], 32633);
+    geotiff(Path::new(&bare), &["......", ".rrrr.", "......"], 0);
+    // The regions, a pixel for each: the centre of the first one is half of 2 by 2 from (100, 50).
+    let run = medial(&["segment", &scene, "-o", &name("regions.png")]);
+    assert_eq!(run.status, Some(0), "{}", run.errors);
+    assert_eq!(fs::read_to_string(name("regions.pgw")).unwrap(), "2\n0\n0\n-2\n101\n49\n");
+    assert!(fs::read_to_string(name("regions.prj")).unwrap().starts_with("PROJCS[\"WGS 84 / UTM"));
+    // The layers: 12 units are 1000 pixels, twice, with 28 pixels to the left and 62 above.
+    for more in [&[][..], &["--compare", &scene]] {
+        let layers = name("layers.png");
+        let run = medial(&words(&scene, &[&["-o", &layers], more].concat()));
+        assert_eq!(run.status, Some(0), "{}", run.errors);
+        let told = fs::read_to_string(name("layers.pgw")).unwrap();
+        let told: Vec<f64> = told.lines().map(|line| line.parse().unwrap()).collect();
+        let step = 12.0 / 2000.0;
+        let expected =
+            [step, 0.0, 0.0, -step, 100.0 - 55.5 * step, 50.0 + (2.0 * 62.0 - 0.5) * step];
+        assert!(told.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-9), "{told:?}");
+        fs::remove_file(name("layers.pgw")).unwrap();
+    }
+    assert!(Path::new(&name("layers.prj")).exists());
+    let svg = medial(&words(&scene, &["--to", "svg"]));
+    assert!(svg.text().contains("EPSG/0/32633\" svg:transform=\"matrix("), "{}", svg.errors);
+    // Without a system there is no text for it, and what has no place tells none.
+    let run = medial(&["segment", &bare, "-o", &name("bare.png")]);
+    assert_eq!(run.status, Some(0), "{}", run.errors);
+    assert!(Path::new(&name("bare.pgw")).exists() && !Path::new(&name("bare.prj")).exists());
+    let plain = picture(folder.path(), "plain.png", &["....", ".rr.", "...."]);
+    let run = medial(&words(&plain, &["-o", &name("drawn.png")]));
+    assert_eq!(run.status, Some(0), "{}", run.errors);
+    assert!(!Path::new(&name("drawn.pgw")).exists());
+}

@@ -1,6 +1,7 @@
 //! What became of the objects of an image in another one.
 
 use super::features::Run;
+use super::place::is_georeferenced;
 use super::image::{Drawn, FORMATS, lines, picture};
 use super::records::{Found, Plan};
 use super::regions::{self, Parted, color};
@@ -11,6 +12,7 @@ use crate::timings::timed;
 use medial::geom::Point;
 use medial_image::{Change, Changes, Objects, Part};
 use medial_io::record::{self, Record, Shape, Value};
+use medial_io::svg::Overlay;
 use medial_io::{Feature, Format, Layer};
 use std::path::Path;
 
@@ -86,7 +88,9 @@ pub fn run(
         engine: None,
     };
     let is_picture = matches!(format, Format::Svg | Format::Png);
-    let (grid, colours) = (*objects.grid(), before.colours.clone());
+    let (grid, colours, crs) = (*objects.grid(), before.colours.clone(), before.crs.clone());
+    let is_georeferenced = is_georeferenced(&grid, crs.as_ref());
+    let overlay = Overlay { grid, colours, layers: Vec::new(), is_georeferenced, crs };
     // A feature each, of which nothing is computed any more.
     let feature = |index: usize| {
         let corners = [(0, 0), (grid.columns, 0), (grid.columns, grid.rows), (0, grid.rows)];
@@ -96,7 +100,8 @@ pub fn run(
     let features: Vec<Feature> = (0..records.len()).map(feature).collect();
     let mut layer = Layer::of_features(before.crs.clone(), features.into_iter());
     layer.warnings.extend(uncompared(&changes, described.objects, &after));
-    plan.run_on(
+    let mut drawn = None;
+    let status = plan.run_on(
         run,
         &before.input.name,
         layer,
@@ -119,10 +124,13 @@ pub fn run(
         |parts, stages| {
             let title = title("Changes", &args.input);
             timed(&mut stages.write, || {
-                picture(args, format, title, (grid, colours), &layers, parts)
+                let picture = picture(args, format, title, overlay, &layers, parts)?;
+                Ok(drawn.insert(picture).take_bytes())
             })
         },
-    )
+    )?;
+    drawn.map_or(Ok(()), |picture| picture.tell_place(args))?;
+    Ok(status)
 }
 
 /// Fails unless two images are of one kind and, as far as that is known, in one reference system.

@@ -1,4 +1,5 @@
 use super::features::Run;
+use super::place::{is_georeferenced, write_beside};
 use super::records::{Found, POLYGONS, Plan};
 use super::regions::{self, Parted, color, shown};
 use crate::args::SegmentArgs;
@@ -50,7 +51,13 @@ pub fn run(args: &'static SegmentArgs) -> Result<Status, Failure> {
         };
         let pixels: Vec<[f32; 3]> = labels.labels().iter().map(of).collect();
         let bytes = image::write_colours(grid.columns, grid.rows, &pixels);
-        timed(&mut run.stages.write, || Output::create(file)?.whole(&bytes))?;
+        timed(&mut run.stages.write, || {
+            Output::create(file)?.whole(&bytes)?;
+            match is_georeferenced(&grid, crs.as_ref()) {
+                true => write_beside(file, &grid, crs.as_ref()),
+                false => Ok(()),
+            }
+        })?;
         return run.done(&input.name, regions.len());
     }
     let objects = timed(&mut run.stages.engine, || {
