@@ -382,6 +382,33 @@ fn images_of_other_kinds_and_systems_are_not_compared() {
 }
 
 #[test]
+fn limits_are_in_units_of_the_band() {
+    let folder = tempfile::tempdir().unwrap();
+    let [before, after] = ["before.tif", "after.tif"].map(|name| folder.path().join(name));
+    let middle = [280.0, 300.0, 300.0, 280.0, 280.0];
+    geotiff_of_numbers(&before, &[&[280.0; 5], &middle, &[280.0; 5]], 0);
+    // The same but for one hot pixel.
+    geotiff_of_numbers(&after, &[&[280.0; 5], &middle, &[280.0, 280.0, 280.0, 280.0, 900.0]], 0);
+    let [before, after] = [before, after].map(|path| path.to_str().unwrap().to_owned());
+    let cut = |limits| ["--method", "threshold", "--limits", limits, "--to", "csv"];
+    let run = medial(&[&["segment", &before][..], &cut("290")].concat());
+    assert_eq!((run.status, run.errors.as_str()), (Some(0), ""));
+    assert_eq!(run.text().lines().count(), 3, "{}", run.text());
+    let compared = ["--max-pixels", "2", "--compare", &after, "--layers", "change"];
+    let run = medial(&[&["image", &before][..], &cut("290,600"), &compared].concat());
+    assert_eq!(run.status, Some(0), "{}", run.errors);
+    let told = run.text();
+    assert_eq!(told.lines().count(), 3, "{told}");
+    assert!(told.contains("same") && told.contains("appeared"), "{told}");
+    // The mean of both is the same, as bands are stretched alike.
+    let mut rows = csv::Reader::from_reader(told.as_bytes());
+    let distance = rows.headers().unwrap().iter().position(|name| name == "color_distance");
+    assert_eq!(&rows.records().next().unwrap().unwrap()[distance.unwrap()], "0");
+    let why = "the limit 600 has all values, which go from 280 to 300, on one side, and parts nothing";
+    assert!(run.errors.contains(why) && run.errors.lines().count() == 1, "{}", run.errors);
+}
+
+#[test]
 fn what_only_one_image_shows_is_told() {
     let folder = tempfile::tempdir().unwrap();
     let wide = picture(folder.path(), "wide.png", &["......", ".r..r.", "......"]);

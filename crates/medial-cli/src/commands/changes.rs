@@ -44,7 +44,7 @@ pub fn run(
     objects: &Objects,
     other: &Path,
 ) -> Result<Status, Failure> {
-    let after = regions::parted(&args.segmentation, other, &mut run, false)?;
+    let after = regions::parted(&args.segmentation, other, &mut run, false, Some(before))?;
     check_alike(before, &after)?;
     let objects_after = timed(&mut run.stages.operations, || after.chosen(&args.choice))?;
     if objects.all().is_empty() && objects_after.all().is_empty() {

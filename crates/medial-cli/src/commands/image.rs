@@ -65,7 +65,7 @@ pub fn run(args: &'static ImageArgs) -> Result<Status, Failure> {
     let mut run = Run::new(kept(args.run.common()))?;
     run.knows_metric = false;
     let is_picture = matches!(format, Format::Svg | Format::Png);
-    let parted = regions::parted(&args.segmentation, &args.input, &mut run, is_picture)?;
+    let parted = regions::parted(&args.segmentation, &args.input, &mut run, is_picture, None)?;
     let objects = timed(&mut run.stages.operations, || parted.chosen(&args.choice))?;
     if let Some(other) = &args.compare {
         return changes::run(args, run, format, &parted, &objects, other);

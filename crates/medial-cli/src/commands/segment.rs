@@ -36,7 +36,7 @@ pub fn run(args: &'static SegmentArgs) -> Result<Status, Failure> {
         return Err(Failure::Usage("a terminal shows no png; name a file with -o".to_owned()));
     }
     let numbers = args.labels.as_deref().map(|path| Output::create(Some(path))).transpose()?;
-    let parted = regions::parted(&args.segmentation, &args.input, &mut run, false)?;
+    let parted = regions::parted(&args.segmentation, &args.input, &mut run, false, None)?;
     let Parted { input, crs, are_bands, labels, regions, .. } = parted;
     let grid = *labels.grid();
     if let Some(output) = numbers {
