@@ -404,7 +404,8 @@ fn limits_are_in_units_of_the_band() {
     let mut rows = csv::Reader::from_reader(told.as_bytes());
     let distance = rows.headers().unwrap().iter().position(|name| name == "color_distance");
     assert_eq!(&rows.records().next().unwrap().unwrap()[distance.unwrap()], "0");
-    let why = "the limit 600 has all values, which go from 280 to 300, on one side, and parts nothing";
+    let why =
+        "the limit 600 has all values, which go from 280 to 300, on one side, and parts nothing";
     assert!(run.errors.contains(why) && run.errors.lines().count() == 1, "{}", run.errors);
 }
 
@@ -488,15 +489,20 @@ fn reports_timings_and_progress_are_those_of_other_commands() {
 fn rings_that_the_command_makes_are_not_reported_as_reversed() {
     let (folder, bars) = folder_with_bars();
     let report = folder.path().join("report.json");
-    // Some of them with holes.
-    for more in [&[][..], &["--simplify", "0.2"]] {
-        let run = medial(&words(&bars, &[&["--report", report.to_str().unwrap()], more].concat()));
+    let report = ["--report", report.to_str().unwrap()];
+    for (command, more) in [
+        ("image", &[][..]),
+        ("image", &["--simplify", "0.2"]),
+        ("image", &["--compare", &bars]),
+        ("segment", &[]),
+    ] {
+        let run = medial(&[&[command, &bars][..], &PARTED, &report, more].concat());
         assert_eq!(run.status, Some(0), "{}", run.errors);
-        let told: Value = serde_json::from_slice(&fs::read(&report).unwrap()).unwrap();
+        let told: Value = serde_json::from_slice(&fs::read(report[1]).unwrap()).unwrap();
         let features = told["features"].as_array().unwrap();
         let entries = features.iter().flat_map(|f| f["entries"].as_array().unwrap());
         let codes: Vec<&Value> = entries.map(|entry| &entry["code"]).collect();
-        assert!(codes.iter().all(|&code| code == "sampling"), "{codes:?}");
+        assert!(codes.iter().all(|&code| code == "sampling"), "{command} {more:?}: {codes:?}");
     }
 }
 

@@ -204,7 +204,8 @@ impl Changes {
         &self.list
     }
 
-    /// The polygons of a part of each change, in their order, one for what hangs together by sides. Linear in pixels and boxes of objects.
+    /// The polygons of a part of each change, in their order, one for what hangs together by sides. Linear in pixels and
+    /// boxes of objects.
     pub fn polygons(&self, part: Part) -> impl Iterator<Item = Polygons> + '_ {
         let number = |(&before, &after): (&u32, &u32)| match part {
             Part::Kept if before == after => before,

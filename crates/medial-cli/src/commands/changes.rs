@@ -1,15 +1,14 @@
 //! What became of the objects of an image in another one.
 
 use super::features::Run;
-use super::place::is_georeferenced;
 use super::image::{Drawn, FORMATS, lines, picture};
+use super::place::{box_ring, is_georeferenced};
 use super::records::{Found, Plan};
 use super::regions::{self, Parted, color};
 use super::sink::title;
 use crate::args::{ImageArgs, ImageLayer};
 use crate::failure::{Failure, Status};
 use crate::timings::timed;
-use medial::geom::Point;
 use medial_image::{Change, Changes, Objects, Part};
 use medial_io::record::{self, Record, Shape, Value};
 use medial_io::svg::Overlay;
@@ -93,8 +92,7 @@ pub fn run(
     let overlay = Overlay { grid, colours, layers: Vec::new(), is_georeferenced, crs };
     // A feature each, of which nothing is computed any more.
     let feature = |index: usize| {
-        let corners = [(0, 0), (grid.columns, 0), (grid.columns, grid.rows), (0, grid.rows)];
-        let ring: Vec<Point> = corners.map(|(column, row)| grid.corner(column, row)).to_vec();
+        let ring = box_ring(&grid, [0, 0], [grid.columns, grid.rows]);
         Feature { index, polygons: vec![vec![ring]], polygonal: true, ..Feature::default() }
     };
     let features: Vec<Feature> = (0..records.len()).map(feature).collect();

@@ -1,7 +1,7 @@
 use super::axis::{dual, pruned, traced};
 use super::changes;
 use super::features::Run;
-use super::place::{is_georeferenced, write_beside};
+use super::place::{is_georeferenced, is_mirrored, write_beside};
 use super::records::{Found, Plan};
 use super::regions::{self, Parted, color};
 use super::sink::title;
@@ -150,9 +150,7 @@ fn layer(objects: &Arc<Objects>, crs: Option<Crs>, simplify: Option<f64>) -> Lay
     let borders = simplify.map(|tolerance| objects.borders(tolerance));
     let n = objects.all().len();
     let objects = Arc::clone(objects);
-    // Outlines have the shape on the left where rows go up.
-    let [width, height] = objects.grid().cell;
-    let is_mirrored = (width < 0.0) != (height < 0.0);
+    let is_mirrored = is_mirrored(objects.grid());
     let feature = move |index: usize| {
         let mask = match borders {
             Some(_) => None,

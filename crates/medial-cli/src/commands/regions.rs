@@ -36,7 +36,7 @@ pub struct Parted {
 /// How far from its colour a pixel, or the mean of a region, may be where nothing is said.
 const TOLERANCE: f64 = 20.0;
 
-/// Reads an image and parts it into regions; bands as those of another one, if there is one beside which it is looked at.
+/// Reads an image and parts it into regions; bands go from 0 to 100 as in another one beside which it is looked at.
 pub fn parted(
     args: &'static Segmentation,
     path: &Path,

@@ -1,5 +1,5 @@
 use super::features::Run;
-use super::place::{is_georeferenced, write_beside};
+use super::place::{box_ring, is_georeferenced, write_beside};
 use super::records::{Found, POLYGONS, Plan};
 use super::regions::{self, Parted, color, shown};
 use crate::args::SegmentArgs;
@@ -7,7 +7,6 @@ use crate::failure::{Failure, Status};
 use crate::output::Output;
 use crate::parallel::kept;
 use crate::timings::timed;
-use medial::geom::Point;
 use medial_image::{Object, Objects, Selection};
 use medial_io::record::{self, Record, Shape, Value};
 use medial_io::{Feature, Format, Layer, image};
@@ -101,9 +100,7 @@ fn layer(objects: &Arc<Objects>, crs: Option<medial_io::Crs>) -> Layer<'static> 
     let objects = Arc::clone(objects);
     let feature = move |index: usize| {
         let Object { whole, .. } = &objects.all()[index];
-        let ([left, top], [right, bottom]) = (whole.first, whole.last.map(|k| k + 1));
-        let corners = [[left, top], [right, top], [right, bottom], [left, bottom]];
-        let ring: Vec<Point> = corners.map(|[x, y]| objects.grid().corner(x, y)).to_vec();
+        let ring = box_ring(objects.grid(), whole.first, whole.last.map(|k| k + 1));
         Feature {
             index,
             polygons: vec![vec![ring]],
