@@ -373,7 +373,7 @@ fn images_of_other_kinds_and_systems_are_not_compared() {
         (&west, "the reference system is EPSG:32633, that of "),
         (&heights, "the image has colours, "),
     ] {
-        let run = medial(&words(&east, &["--compare", after]));
+        let run = medial(&words(&east, &["-q", "--compare", after]));
         assert_eq!((run.status, run.text()), (Some(1), ""), "{}", run.errors);
         assert!(run.errors.contains(why) && run.errors.lines().count() == 1, "{}", run.errors);
     }
@@ -412,8 +412,8 @@ fn limits_are_in_units_of_the_band() {
 #[test]
 fn what_only_one_image_shows_is_told() {
     let folder = tempfile::tempdir().unwrap();
-    let wide = picture(folder.path(), "wide.png", &["......", ".r..r.", "......"]);
-    let narrow = picture(folder.path(), "narrow.png", &["...", ".r.", "..."]);
+    let wide = picture(folder.path(), "wide.png", &["......", ".r..r.", "..w..."]);
+    let narrow = picture(folder.path(), "narrow.png", &["...", ".r.", "..w"]);
     let more = ["--select-color", "c81e1e", "--layers", "change", "--to", "csv"];
     let run = medial(&words(&wide, &[&["--compare", &narrow][..], &more].concat()));
     assert_eq!((run.status, run.text().lines().count()), (Some(0), 2), "{}", run.errors);
