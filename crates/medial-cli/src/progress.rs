@@ -2,6 +2,7 @@ use crate::args::When;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::cell::Cell;
 use std::io::{IsTerminal as _, Write as _};
+use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 /// Time between lines of progress where standard error is no terminal.
@@ -13,6 +14,29 @@ pub struct Progress {
     /// When the last line was written, where lines stand for the bar.
     lines: Option<Cell<Instant>>,
     quiet: bool,
+    /// What is being done, if it is not features that are counted.
+    what: Option<&'static str>,
+}
+
+/// Counts rows that are done.
+pub struct Steps {
+    bar: ProgressBar,
+    what: &'static str,
+    /// When the next line is written, where lines stand for the bar.
+    next: Option<Mutex<Instant>>,
+}
+
+impl Steps {
+    pub fn step(&self) {
+        self.bar.inc(1);
+        let Some(next) = &self.next else { return };
+        let mut next = next.lock().unwrap_or_else(PoisonError::into_inner);
+        if Instant::now() >= *next {
+            *next = Instant::now() + PAUSE;
+            let n = self.bar.length().unwrap_or_default();
+            line(&format!("progress: {}, {} of {n} rows", self.what, self.bar.position()));
+        }
+    }
 }
 
 impl Progress {
@@ -34,13 +58,17 @@ impl Progress {
         if let Ok(style) = ProgressStyle::with_template(template) {
             bar.set_style(style);
         }
-        Self { bar, lines, quiet }
+        Self { bar, lines, quiet, what: None }
     }
 
-    /// That something is being done which is not counted.
-    pub fn working(when: When, quiet: bool, what: &'static str) -> Self {
-        let progress = Self::new(when, quiet, None);
-        if let Ok(style) = ProgressStyle::with_template("{spinner} {msg}, {elapsed}") {
+    /// That something is being done, of which so many rows are counted if any are.
+    pub fn working(when: When, quiet: bool, what: &'static str, rows: Option<u32>) -> Self {
+        let progress = Self::new(when, quiet, rows.map(|rows| rows as usize));
+        let template = match rows {
+            Some(_) => "{wide_bar} {msg}, {pos}/{len} rows, {eta} left",
+            None => "{spinner} {msg}, {elapsed}",
+        };
+        if let Ok(style) = ProgressStyle::with_template(template) {
             progress.bar.set_style(style);
         }
         progress.bar.set_message(what);
@@ -49,7 +77,13 @@ impl Progress {
         } else if !progress.bar.is_hidden() {
             progress.bar.enable_steady_tick(Duration::from_millis(100));
         }
-        Self { lines: None, ..progress }
+        Self { what: Some(what), ..progress }
+    }
+
+    /// What counts the rows of [`working`](Self::working), on whatever thread.
+    pub fn steps(&self) -> Steps {
+        let next = self.lines.is_some().then(|| Mutex::new(Instant::now() + PAUSE));
+        Steps { bar: self.bar.clone(), what: self.what.unwrap_or_default(), next }
     }
 
     pub fn step(&self) {
@@ -73,7 +107,7 @@ impl Progress {
     }
 
     pub fn finish(&self) {
-        if self.lines.is_some() {
+        if self.lines.is_some() && self.what.is_none() {
             self.tell();
         }
         self.bar.finish_and_clear();

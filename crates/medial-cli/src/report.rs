@@ -147,9 +147,8 @@ impl Entry {
     /// Reading left something out or took it for something else.
     pub fn noted(note: &Note) -> Self {
         let action = match note.code {
-            "part_not_polygon" | "point_left_out" | "values_missing" | "duplicate_line" => {
-                Action::Dropped
-            }
+            "part_not_polygon" | "point_left_out" | "values_missing" | "duplicate_line"
+            | "duplicate_point" => Action::Dropped,
             _ => Action::Repaired,
         };
         Self { action, ..Self::refused(note.code, note.text.clone()) }

@@ -90,3 +90,15 @@ fn points_without_order_have_a_border_and_an_axis() {
     assert_eq!(line.status, Some(1));
     assert!(line.errors.contains("3 points without a closed border"), "{}", line.errors);
 }
+
+#[test]
+fn smoothing_the_outline_of_an_image_is_for_images() {
+    let rectangle = "POLYGON((0 0,4 0,4 2,0 2,0 0))";
+    for command in ["axis", "branches"] {
+        let args = [command, "-", "--from", "wkt", "--smooth-border", "2"];
+        let run = medial_with(&[&args[..], &ENGINE].concat(), rectangle);
+        assert_eq!((run.status, run.text()), (Some(2), ""), "{}", run.errors);
+        let why = "--smooth-border is for images, whose outlines have steps; the input is wkt";
+        assert!(run.errors.contains(why), "{}", run.errors);
+    }
+}

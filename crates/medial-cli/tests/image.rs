@@ -136,6 +136,31 @@ fn points_choose_regions_and_combine_them() {
 }
 
 #[test]
+fn objects_that_meet_at_a_corner_are_polygons_of_their_own() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = picture(folder.path(), "corner.png", &["....", ".r..", "..g.", "...."]);
+    let both = ["--at", "1.5,-1.5", "--at", "2.5,-2.5", "--combine", "--layers", "border"];
+    for more in [&[][..], &["--simplify", "0.1"]] {
+        let run = medial(&words(&scene, &[&both, more].concat()));
+        assert_eq!(run.status, Some(0), "{}", run.errors);
+        let border = &features(run.text())[0]["geometry"];
+        assert_eq!(border["type"], "MultiPolygon");
+        let polygons = border["coordinates"].as_array().unwrap();
+        // Two squares, of five points each with the last one.
+        let n: Vec<usize> = polygons.iter().map(|p| p[0].as_array().unwrap().len()).collect();
+        assert_eq!(n, [5, 5], "{border}");
+    }
+    // The same of what changes.
+    let before = picture(folder.path(), "before.png", &["rrrr", "r.rr", "rr.r", "rrrr"]);
+    let after = picture(folder.path(), "after.png", &["rrrr"; 4]);
+    let red = ["--select-color", "c81e1e", "--compare", &after, "--layers", "gained"];
+    let run = medial(&words(&before, &red));
+    assert_eq!(run.status, Some(0), "{}", run.errors);
+    let gained = &features(run.text())[0]["geometry"];
+    assert_eq!(gained["coordinates"].as_array().unwrap().len(), 2, "{gained}");
+}
+
+#[test]
 fn sizes_and_colours_choose_regions() {
     let (_folder, bars) = folder_with_bars();
     let chosen = |more: &[&str]| {
@@ -308,6 +333,99 @@ fn what_became_of_regions_is_told() {
     assert_eq!(run.status, Some(0), "{}", run.errors);
 }
 
+/// The changes between two pictures, one row of CSV each, as `change` and the pixels before and after.
+fn changes(before: &str, after: &str, more: &[&str]) -> Vec<[String; 3]> {
+    let compared = ["--compare", after, "--layers", "change", "--to", "csv"];
+    let run = medial(&words(before, &[&compared, more].concat()));
+    assert_eq!(run.status, Some(0), "{}", run.errors);
+    let mut rows = csv::Reader::from_reader(run.text().as_bytes());
+    let names = rows.headers().unwrap().clone();
+    let place = |name: &str| names.iter().position(|other| other == name).unwrap();
+    let places = ["change", "pixels", "pixels_after"].map(place);
+    rows.records().map(|row| places.map(|k| row.as_ref().unwrap()[k].to_owned())).collect()
+}
+
+#[test]
+fn all_that_is_chosen_may_vanish_or_appear() {
+    let folder = tempfile::tempdir().unwrap();
+    let wet = picture(folder.path(), "wet.png", &["......", ".rr...", "......"]);
+    let dry = picture(folder.path(), "dry.png", &["......", "......", "......"]);
+    let red = ["--select-color", "c81e1e"];
+    assert_eq!(changes(&wet, &dry, &red), [["vanished", "2", "0"]]);
+    assert_eq!(changes(&dry, &wet, &red), [["appeared", "0", "2"]]);
+    let run = medial(&words(&dry, &[&["--compare", &dry][..], &red].concat()));
+    assert_eq!((run.status, run.text()), (Some(1), ""));
+    let why = format!("none of its 1 regions is chosen, nor of the 1 of {dry}; see them");
+    assert!(run.errors.contains(&why), "{}", run.errors);
+}
+
+#[test]
+fn images_of_other_kinds_and_systems_are_not_compared() {
+    let folder = tempfile::tempdir().unwrap();
+    let name = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    let [east, west, bare, heights] = ["east.tif", "west.tif", "bare.tif", "heights.tif"].map(name);
+    let rows = ["....", ".rr.", "...."];
+    for (file, epsg) in [(&east, 32633), (&west, 32632), (&bare, 0)] {
+        geotiff(Path::new(file), &rows, epsg);
+    }
+    geotiff_of_numbers(Path::new(&heights), &[&[1.0, 2.0, 2.0, 1.0][..]; 3], 32633);
+    for (after, why) in [
+        (&west, "the reference system is EPSG:32633, that of "),
+        (&heights, "the image has colours, "),
+    ] {
+        let run = medial(&words(&east, &["-q", "--compare", after]));
+        assert_eq!((run.status, run.text()), (Some(1), ""), "{}", run.errors);
+        assert!(run.errors.contains(why) && run.errors.lines().count() == 1, "{}", run.errors);
+    }
+    // What has no system may be in any.
+    assert_eq!(changes(&east, &bare, &["--max-pixels", "9"]), [["same", "2", "2"]]);
+}
+
+#[test]
+fn limits_are_in_units_of_the_band() {
+    let folder = tempfile::tempdir().unwrap();
+    let [before, after] = ["before.tif", "after.tif"].map(|name| folder.path().join(name));
+    let middle = [280.0, 300.0, 300.0, 280.0, 280.0];
+    geotiff_of_numbers(&before, &[&[280.0; 5], &middle, &[280.0; 5]], 0);
+    // The same but for one hot pixel.
+    geotiff_of_numbers(&after, &[&[280.0; 5], &middle, &[280.0, 280.0, 280.0, 280.0, 900.0]], 0);
+    let [before, after] = [before, after].map(|path| path.to_str().unwrap().to_owned());
+    let cut = |limits| ["--method", "threshold", "--limits", limits, "--to", "csv"];
+    let run = medial(&[&["segment", &before][..], &cut("290")].concat());
+    assert_eq!((run.status, run.errors.as_str()), (Some(0), ""));
+    assert_eq!(run.text().lines().count(), 3, "{}", run.text());
+    let compared = ["--max-pixels", "2", "--compare", &after, "--layers", "change"];
+    let run = medial(&[&["image", &before][..], &cut("290,600"), &compared].concat());
+    assert_eq!(run.status, Some(0), "{}", run.errors);
+    let told = run.text();
+    assert_eq!(told.lines().count(), 3, "{told}");
+    assert!(told.contains("same") && told.contains("appeared"), "{told}");
+    // The mean of both is the same, as bands are stretched alike.
+    let mut rows = csv::Reader::from_reader(told.as_bytes());
+    let distance = rows.headers().unwrap().iter().position(|name| name == "color_distance");
+    assert_eq!(&rows.records().next().unwrap().unwrap()[distance.unwrap()], "0");
+    let why =
+        "the limit 600 has all values, which go from 280 to 300, on one side, and parts nothing";
+    assert!(run.errors.contains(why) && run.errors.lines().count() == 1, "{}", run.errors);
+}
+
+#[test]
+fn what_only_one_image_shows_is_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let wide = picture(folder.path(), "wide.png", &["......", ".r..r.", "..w..."]);
+    let narrow = picture(folder.path(), "narrow.png", &["...", ".r.", "..w"]);
+    let more = ["--select-color", "c81e1e", "--layers", "change", "--to", "csv"];
+    let run = medial(&words(&wide, &[&["--compare", &narrow][..], &more].concat()));
+    assert_eq!((run.status, run.text().lines().count()), (Some(0), 2), "{}", run.errors);
+    let why = "wide.png: 1 of the 2 pixels of its objects lie where only one image has data, 1 objects as a whole";
+    assert!(run.errors.contains(why) && run.errors.lines().count() == 1, "{}", run.errors);
+    let run = medial(&words(&narrow, &[&["--compare", &wide][..], &more].concat()));
+    assert!(run.errors.contains("1 of the 2 pixels of the objects of "), "{}", run.errors);
+    // No warning where nothing is left out.
+    let run = medial(&words(&wide, &[&["--compare", &wide][..], &more].concat()));
+    assert_eq!((run.status, run.errors.as_str()), (Some(0), ""));
+}
+
 #[test]
 fn options_that_contradict_one_another_are_told() {
     let (_folder, bars) = folder_with_bars();
@@ -365,6 +483,29 @@ fn reports_timings_and_progress_are_those_of_other_commands() {
     }
     // Nothing but errors where standard error is no terminal.
     assert_eq!(medial(&words(&bars, &[])).errors, "");
+}
+
+#[test]
+fn rings_that_the_command_makes_are_not_reported_as_reversed() {
+    let (folder, bars) = folder_with_bars();
+    let report = folder.path().join("report.json");
+    let report = ["--report", report.to_str().unwrap()];
+    for (command, more) in [
+        ("image", &[][..]),
+        ("image", &["--simplify", "0.2"]),
+        ("image", &["--compare", &bars]),
+        ("segment", &[]),
+    ] {
+        let run = medial(&[&[command, &bars][..], &PARTED, &report, more].concat());
+        assert_eq!(run.status, Some(0), "{}", run.errors);
+        let told: Value = serde_json::from_slice(&fs::read(report[1]).unwrap()).unwrap();
+        let features = told["features"].as_array().unwrap();
+        let entries = features.iter().flat_map(|f| f["entries"].as_array().unwrap());
+        let codes: Vec<&Value> = entries.map(|entry| &entry["code"]).collect();
+        // Corners stay where regions meet, although the border of one of them is straight there.
+        let is_true = |code: &&Value| *code == "sampling" || *code == "straight_corner";
+        assert!(codes.iter().all(is_true), "{command} {more:?}: {codes:?}");
+    }
 }
 
 #[test]
@@ -520,31 +661,48 @@ fn images_without_data_or_cut_off_are_told() {
     assert!(run.errors.contains("no image"), "{}", run.errors);
 }
 
-/// A GeoTIFF of letters, `r` red and others blue, with pixels of 2 by 2 from (100, 50) on downwards.
-fn geotiff(path: &Path, rows: &[&str]) {
-    let (columns, n_rows) = (rows[0].len() as u32, rows.len() as u32);
+/// A GeoTIFF of letters, `r` red and others blue, with pixels of 2 by 2 from (100, 50) on downwards, in a reference
+/// system of EPSG, or none for 0.
+fn geotiff(path: &Path, rows: &[&str], epsg: u16) {
     let colour = |letter: u8| if letter == b'r' { [200, 30, 30] } else { [30, 40, 180] };
     let pixels: Vec<u8> = rows.iter().flat_map(|row| row.bytes()).flat_map(colour).collect();
+    tiff(path, [rows[0].len() as u32, rows.len() as u32], 3, &pixels, epsg);
+}
+
+/// One of real numbers.
+fn geotiff_of_numbers(path: &Path, rows: &[&[f32]], epsg: u16) {
+    let pixels: Vec<u8> = rows.iter().copied().flatten().flat_map(|v| v.to_le_bytes()).collect();
+    tiff(path, [rows[0].len() as u32, rows.len() as u32], 1, &pixels, epsg);
+}
+
+/// One of three bytes a pixel, or of one number.
+fn tiff(path: &Path, [columns, n_rows]: [u32; 2], each: u32, pixels: &[u8], epsg: u16) {
     let doubles = [2.0, 2.0, 0.0, 0.0, 0.0, 0.0, 100.0, 50.0, 0.0_f64];
-    // A header of 8 bytes, the pixels, their depths, the doubles, then the directory.
+    let keys = [1, 1, 0, 1, 3072, 0, 1, epsg];
+    // A header of 8 bytes, the pixels, their depths, the doubles, the keys, then the directory.
     let [depths, numbers] = [8 + pixels.len() as u32, 14 + pixels.len() as u32];
-    let directory = numbers + 72;
-    let mut bytes = [b"II\x2a\0", &directory.to_le_bytes()[..], &pixels].concat();
+    let keys_at = numbers + 72;
+    let directory = keys_at + 16;
+    let mut bytes = [b"II\x2a\0", &directory.to_le_bytes()[..], pixels].concat();
     bytes.extend([8_u16; 3].into_iter().flat_map(u16::to_le_bytes));
     bytes.extend(doubles.into_iter().flat_map(f64::to_le_bytes));
+    bytes.extend(keys.into_iter().flat_map(u16::to_le_bytes));
+    let is_real = each == 1;
     // Tag, kind (3 for 16 bits, 4 for 32, 12 for doubles), count, and a value or where it is.
-    let entries: [(u16, u16, u32, u32); 11] = [
+    let entries: [(u16, u16, u32, u32); 13] = [
         (256, 4, 1, columns),
         (257, 4, 1, n_rows),
-        (258, 3, 3, depths),
+        (258, 3, each, if is_real { 32 } else { depths }),
         (259, 3, 1, 1),
-        (262, 3, 1, 2),
+        (262, 3, 1, if is_real { 1 } else { 2 }),
         (273, 4, 1, 8),
-        (277, 3, 1, 3),
+        (277, 3, 1, each),
         (278, 4, 1, n_rows),
         (279, 4, 1, pixels.len() as u32),
+        (339, 3, 1, if is_real { 3 } else { 1 }),
         (33550, 12, 3, numbers),
         (33922, 12, 6, numbers + 24),
+        (34735, 3, 8, keys_at),
     ];
     bytes.extend((entries.len() as u16).to_le_bytes());
     for (tag, kind, count, value) in entries {
@@ -559,7 +717,7 @@ fn geotiff(path: &Path, rows: &[&str]) {
 fn points_and_layers_are_in_the_plane_of_a_georeferenced_image() {
     let folder = tempfile::tempdir().unwrap();
     let scene = folder.path().join("scene.tif");
-    geotiff(&scene, &["......", ".rrrr.", ".rrrr.", "......"]);
+    geotiff(&scene, &["......", ".rrrr.", ".rrrr.", "......"], 0);
     let run = medial(&words(scene.to_str().unwrap(), &["--at", "105,47", "--prune", "none"]));
     assert_eq!(run.status, Some(0), "{}", run.errors);
     let layers = by_layer(run.text());
@@ -573,4 +731,42 @@ fn points_and_layers_are_in_the_plane_of_a_georeferenced_image() {
     let outside = medial(&words(scene.to_str().unwrap(), &["--at", "3,-2"]));
     assert_eq!(outside.status, Some(1));
     assert!(outside.errors.contains("which reaches from 100,42 to 112,50"), "{}", outside.errors);
+}
+
+#[test]
+fn pictures_tell_where_they_lie() {
+    let folder = tempfile::tempdir().unwrap();
+    let name = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    let [scene, bare] = [name("scene.tif"), name("bare.tif")];
+    geotiff(Path::new(&scene), &["......", ".rrrr.", "......"], 32633);
+    geotiff(Path::new(&bare), &["......", ".rrrr.", "......"], 0);
+    // The regions, a pixel for each: the centre of the first one is half of 2 by 2 from (100, 50).
+    let run = medial(&["segment", &scene, "-o", &name("regions.png")]);
+    assert_eq!(run.status, Some(0), "{}", run.errors);
+    assert_eq!(fs::read_to_string(name("regions.pgw")).unwrap(), "2\n0\n0\n-2\n101\n49\n");
+    assert!(fs::read_to_string(name("regions.prj")).unwrap().starts_with("PROJCS[\"WGS 84 / UTM"));
+    // The layers: 12 units are 1000 pixels, twice, with 28 pixels to the left and 62 above.
+    for more in [&[][..], &["--compare", &scene]] {
+        let layers = name("layers.png");
+        let run = medial(&words(&scene, &[&["-o", &layers], more].concat()));
+        assert_eq!(run.status, Some(0), "{}", run.errors);
+        let told = fs::read_to_string(name("layers.pgw")).unwrap();
+        let told: Vec<f64> = told.lines().map(|line| line.parse().unwrap()).collect();
+        let step = 12.0 / 2000.0;
+        let expected =
+            [step, 0.0, 0.0, -step, 100.0 - 55.5 * step, 50.0 + (2.0 * 62.0 - 0.5) * step];
+        assert!(told.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-9), "{told:?}");
+        fs::remove_file(name("layers.pgw")).unwrap();
+    }
+    assert!(Path::new(&name("layers.prj")).exists());
+    let svg = medial(&words(&scene, &["--to", "svg"]));
+    assert!(svg.text().contains("EPSG/0/32633\" svg:transform=\"matrix("), "{}", svg.errors);
+    // Without a system there is no text for it, and what has no place tells none.
+    let run = medial(&["segment", &bare, "-o", &name("bare.png")]);
+    assert_eq!(run.status, Some(0), "{}", run.errors);
+    assert!(Path::new(&name("bare.pgw")).exists() && !Path::new(&name("bare.prj")).exists());
+    let plain = picture(folder.path(), "plain.png", &["....", ".rr.", "...."]);
+    let run = medial(&words(&plain, &["-o", &name("drawn.png")]));
+    assert_eq!(run.status, Some(0), "{}", run.errors);
+    assert!(!Path::new(&name("drawn.pgw")).exists());
 }

@@ -7,7 +7,7 @@
 
 use crate::labels::Labels;
 use crate::objects::Objects;
-use crate::pixels::{Pixels, Polygons, Window};
+use crate::pixels::{Pixels, Polygons, polygons};
 use medial::raster::Grid;
 use std::collections::BTreeMap;
 
@@ -33,7 +33,9 @@ pub enum ChangeError {
         shift: [f64; 2],
     },
     /// They have no pixel in common.
-    #[error("the images have no pixel with data in common, so nothing can be compared")]
+    #[error(
+        "the images have no pixel with data in common, so nothing can be compared; name images of one place"
+    )]
     Apart,
 }
 
@@ -46,6 +48,15 @@ pub struct Change {
     pub after: Option<u32>,
     /// How many compared pixels are in both, in the second only, and in the first only.
     pub cells: [u64; 3],
+}
+
+/// What of the objects of an image is not compared.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Uncompared {
+    /// How many of their pixels.
+    pub cells: u64,
+    /// How many objects as a whole, which are in no change.
+    pub objects: u64,
 }
 
 /// Which pixels of a change.
@@ -69,6 +80,7 @@ pub struct Changes {
     /// For each pixel the numbers of the changes that it belongs to before and after.
     numbers: [Vec<u32>; 2],
     list: Vec<Change>,
+    uncompared: [Uncompared; 2],
 }
 
 /// How far pixels may lie from those of the other image, in columns or rows.
@@ -95,6 +107,9 @@ impl Changes {
     /// If the pixels of both images are not the same in size and place, or none is in both.
     pub fn new(before: &Objects, after: &Objects, least: f64) -> Result<Self, ChangeError> {
         let (first, second) = (before.grid(), after.grid());
+        if are_apart(first, second) {
+            return Err(ChangeError::Apart);
+        }
         let n = f64::from(first.columns.max(first.rows).max(second.columns).max(second.rows));
         let is_same =
             |k: usize| (second.cell[k] - first.cell[k]).abs() * n <= STRETCH * first.cell[k].abs();
@@ -150,6 +165,13 @@ impl Changes {
         if n_compared == 0 {
             return Err(ChangeError::Apart);
         }
+        let uncompared = [(before, &totals[0]), (after, &totals[1])].map(|(objects, totals)| {
+            let all: u64 = objects.all().iter().map(|object| object.whole.cells).sum();
+            Uncompared {
+                cells: all - totals.iter().sum::<u64>(),
+                objects: totals.iter().filter(|&&n| n == 0).count() as u64,
+            }
+        });
         let list = matched(&pairs, &totals, least);
         // Numbers of objects become numbers of changes.
         for (side, numbers) in numbers.iter_mut().enumerate() {
@@ -161,7 +183,7 @@ impl Changes {
             }
             numbers.iter_mut().filter(|k| **k != NONE).for_each(|k| *k = of[*k as usize]);
         }
-        Ok(Self { grid, numbers, list })
+        Ok(Self { grid, numbers, list, uncompared })
     }
 
     /// What is common to both images.
@@ -170,13 +192,20 @@ impl Changes {
         &self.grid
     }
 
+    /// What of the objects of the first image and of the second one is not compared, as the other has no data there.
+    #[must_use]
+    pub fn uncompared(&self) -> [Uncompared; 2] {
+        self.uncompared
+    }
+
     /// All changes: by the number of the object before, then what appeared by its number.
     #[must_use]
     pub fn list(&self) -> &[Change] {
         &self.list
     }
 
-    /// The polygons of a part of each change, in their order. Linear in pixels and boxes of objects.
+    /// The polygons of a part of each change, in their order, one for what hangs together by sides. Linear in pixels and
+    /// boxes of objects.
     pub fn polygons(&self, part: Part) -> impl Iterator<Item = Polygons> + '_ {
         let number = |(&before, &after): (&u32, &u32)| match part {
             Part::Kept if before == after => before,
@@ -199,10 +228,19 @@ impl Changes {
                 lists.iter().flat_map(|list| list.of(change)).copied().collect();
             pixels.sort_unstable();
             pixels.dedup();
-            let window = Window::around(&pixels, self.grid.columns);
-            window.map_or_else(Vec::new, |window| window.polygons(&self.grid))
+            polygons(&pixels, &self.grid)
         })
     }
+}
+
+/// Whether two images have no part of the plane in common.
+fn are_apart(first: &Grid, second: &Grid) -> bool {
+    let ends = [(0, 0), (second.columns, second.rows)].map(|(x, y)| second.corner(x, y));
+    let [a, b] = ends.map(|end| first.locate(end));
+    (0..2).any(|k| {
+        let n = f64::from([first.columns, first.rows][k]);
+        a[k].min(b[k]) >= n - OFF || a[k].max(b[k]) <= OFF
+    })
 }
 
 /// No object.
@@ -322,6 +360,12 @@ mod tests {
             [(Some(0), Some(0), [1, 0, 0]), (Some(1), Some(1), [1, 0, 0])],
             "columns 1 and 3 of the first image"
         );
+        // Columns 0 and 2, and the last two of the second image.
+        let uncompared = [(2, 0), (2, 0)].map(|(cells, objects)| Uncompared { cells, objects });
+        assert_eq!(changes.uncompared(), uncompared);
+        let beside = Changes::new(&before, &objects(&["b.c"], at(3.0, 0.0)), 0.0).unwrap();
+        let uncompared = [(3, 1), (1, 1)].map(|(cells, objects)| Uncompared { cells, objects });
+        assert_eq!(beside.uncompared(), uncompared);
     }
 
     #[test]
@@ -329,7 +373,10 @@ mod tests {
         let before = objects(&["aa"], at(0.0, 0.0));
         let shifted = Changes::new(&before, &objects(&["aa"], at(0.5, 0.0)), 0.0);
         assert_eq!(shifted, Err(ChangeError::Shift { shift: [0.5, 0.0] }));
-        let apart = Changes::new(&before, &objects(&["aa"], at(7.0, 0.0)), 0.0);
-        assert_eq!(apart, Err(ChangeError::Apart));
+        // However they lie.
+        for far in [at(7.0, 0.0), at(7.3, 0.0), at(0.0, 1.5), at(-2.0, 0.0), at(1e12, 0.5)] {
+            let apart = Changes::new(&before, &objects(&["aa"], far), 0.0);
+            assert_eq!(apart, Err(ChangeError::Apart), "{far:?}");
+        }
     }
 }

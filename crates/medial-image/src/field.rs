@@ -78,15 +78,33 @@ impl Field {
         grid: Grid,
         bands: impl IntoIterator<Item = [f32; 3]>,
     ) -> Result<Self, FieldError> {
-        let mut field = Self::new(grid, bands)?;
-        for band in 0..3 {
-            let known = field.values.iter().map(|value| value[band]).filter(|v| !v.is_nan());
-            let (low, high) =
-                known.fold((f32::INFINITY, f32::NEG_INFINITY), |(a, b), v| (a.min(v), b.max(v)));
-            let scale = if high > low { 100.0 / (high - low) } else { 0.0 };
-            field.values.iter_mut().for_each(|value| value[band] = (value[band] - low) * scale);
+        let field = Self::new(grid, bands)?;
+        let extents = field.extents();
+        Ok(field.stretched(extents))
+    }
+
+    /// The least value and the greatest of each of the three numbers; without data infinity and its negative.
+    #[must_use]
+    pub fn extents(&self) -> [[f32; 2]; 3] {
+        let mut extents = [[f32::INFINITY, f32::NEG_INFINITY]; 3];
+        for value in self.values.iter().filter(|value| !value[0].is_nan()) {
+            for ([low, high], &number) in extents.iter_mut().zip(value) {
+                (*low, *high) = (low.min(number), high.max(number));
+            }
         }
-        Ok(field)
+        extents
+    }
+
+    /// The field in which these values become 0 and 100, as for another image beside which it is looked at; where both
+    /// are the same all become 0.
+    #[must_use]
+    pub fn stretched(mut self, extents: [[f32; 2]; 3]) -> Self {
+        for (band, [low, high]) in extents.into_iter().enumerate() {
+            let scale = if high > low { 100.0 / (high - low) } else { 0.0 };
+            let known = self.values.iter_mut().filter(|value| !value[band].is_nan());
+            known.for_each(|value| value[band] = (value[band] - low) * scale);
+        }
+        self
     }
 
     /// The same without the pixels, by column and row, for which something is true.
@@ -146,6 +164,17 @@ pub(crate) fn squared(a: [f32; 3], b: [f32; 3]) -> f32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn bands_are_stretched_as_those_of_another_image() {
+        let band = |values: [f32; 2]| {
+            Field::new(Grid::of_image(2, 1), values.map(|v| [v, 7.0, v])).unwrap()
+        };
+        let extents = band([2.0, 4.0]).extents();
+        assert_eq!(extents, [[2.0, 4.0], [7.0, 7.0], [2.0, 4.0]]);
+        let values = [[50.0, 0.0, 50.0], [300.0, 0.0, 300.0]];
+        assert_eq!(band([3.0, 8.0]).stretched(extents).values(), values);
+    }
 
     #[test]
     fn bands_go_from_0_to_100() {

@@ -39,12 +39,12 @@ mod selection;
 mod simple;
 
 pub use borders::Borders;
-pub use changes::{Change, ChangeError, Changes, Part};
+pub use changes::{Change, ChangeError, Changes, Part, Uncompared};
 pub use colour::{luv, srgb};
 pub use feature_space::{Analysis, Resolution, feature_space};
 pub use field::{Field, FieldError};
 pub use labels::{Labels, Region};
-pub use mean_shift::{Filter, filtered, mean_shift};
+pub use mean_shift::{Filter, filtered, mean_shift, mean_shift_with};
 pub use objects::{Object, Objects};
 pub use selection::{Action, Click, Selection, SelectionError};
-pub use simple::{near_colours, thresholds};
+pub use simple::{near_colours, thresholds, thresholds_of};

@@ -57,7 +57,14 @@ const MOST_STEPS: usize = 100;
 /// The regions of an image by mean shift.
 #[must_use]
 pub fn mean_shift(field: &Field, filter: &Filter) -> Labels {
-    let modes = modes(field, filter);
+    mean_shift_with(field, filter, &|| {})
+}
+
+/// The same, which calls something whenever the pixels of one more row have come to rest: that takes nearly all of the
+/// time.
+#[must_use]
+pub fn mean_shift_with(field: &Field, filter: &Filter, done: &(dyn Fn() + Sync)) -> Labels {
+    let modes = modes(field, filter, done);
     let class: Vec<u32> =
         (0..modes.len()).map(|k| if field.is_known(k) { 0 } else { Labels::NONE }).collect();
     let joined = |a: usize, b: usize| {
@@ -73,10 +80,10 @@ pub fn mean_shift(field: &Field, filter: &Filter) -> Labels {
 /// The values that the pixels come to: the image smoothed, with its edges.
 #[must_use]
 pub fn filtered(field: &Field, filter: &Filter) -> Vec<[f32; 3]> {
-    modes(field, filter).into_iter().map(|mode| mode.value).collect()
+    modes(field, filter, &|| {}).into_iter().map(|mode| mode.value).collect()
 }
 
-fn modes(field: &Field, filter: &Filter) -> Vec<Mode> {
+fn modes(field: &Field, filter: &Filter, done: &(dyn Fn() + Sync)) -> Vec<Mode> {
     let columns = field.grid().columns as usize;
     let mut modes = vec![Mode { place: [0.0; 2], value: [f32::NAN; 3] }; field.values().len()];
     if columns == 0 {
@@ -94,6 +101,7 @@ fn modes(field: &Field, filter: &Filter) -> Vec<Mode> {
                     *mode = planes.mode_of(Mode { place: [x as f32, y as f32], value }, filter);
                 }
             }
+            done();
         }
     };
     std::thread::scope(|scope| {
@@ -213,6 +221,7 @@ mod tests {
     use super::*;
     use crate::random::Random;
     use medial::raster::Grid;
+    use std::sync::atomic::{AtomicU32, Ordering};
 
     /// Two halves with noise.
     fn halves(noise: f32) -> Field {
@@ -236,7 +245,11 @@ mod tests {
     fn threads_change_nothing() {
         let field = halves(30.0);
         let filter = Filter { threads: NonZeroUsize::new(3).unwrap(), ..Filter::default() };
-        assert_eq!(mean_shift(&field, &filter), mean_shift(&field, &Filter::default()));
+        let n_rows = AtomicU32::new(0);
+        let count = || drop(n_rows.fetch_add(1, Ordering::Relaxed));
+        let found = mean_shift_with(&field, &filter, &count);
+        assert_eq!(found, mean_shift(&field, &Filter::default()));
+        assert_eq!(n_rows.into_inner(), 30);
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! What is chosen of an image, as objects with their pixels, masks and polygons.
 
 use crate::labels::{Labels, Region};
-use crate::pixels::{Pixels, Polygons, Window};
+use crate::pixels::{Pixels, Polygons, Window, polygons};
 use crate::selection::Selection;
 use medial::raster::{Grid, Mask, MaskError};
 
@@ -93,18 +93,18 @@ impl Objects {
         [(pixel % columns) as u32, (pixel / columns) as u32]
     }
 
-    /// The polygons of an object along the sides of its pixels; where objects meet their corners are the same numbers.
+    /// The polygons of an object along the sides of its pixels, one for each part that hangs together by sides; where
+    /// objects meet their corners are the same numbers.
     ///
     /// # Panics
     /// If there is no such object.
     #[must_use]
     pub fn polygons(&self, object: u32) -> Polygons {
-        let window = self.window(object);
-        window.map_or_else(Vec::new, |window| window.polygons(&self.grid))
+        polygons(self.pixels.of(object), &self.grid)
     }
 
-    pub(crate) fn window(&self, object: u32) -> Option<Window> {
-        Window::around(self.pixels.of(object), self.grid.columns)
+    pub(crate) fn windows(&self, object: u32) -> Vec<Window> {
+        Window::parts(self.pixels.of(object), self.grid.columns)
     }
 }
 

@@ -1,5 +1,6 @@
 //! Pixels by the number that each has, and their outlines in the plane of a grid.
 
+use crate::labels::{find, join};
 use medial::geom::Point;
 use medial::raster::{Grid, Mask, outline};
 
@@ -14,7 +15,7 @@ pub(crate) struct Pixels {
     pixels: Vec<u64>,
 }
 
-/// Some pixels in the box around them.
+/// Some pixels that hang together by sides, in the box around them.
 pub(crate) struct Window {
     /// On a grid of whole numbers, rows upwards, so that corners are those of the image whatever box they are seen from.
     pub mask: Mask,
@@ -49,8 +50,17 @@ impl Pixels {
 }
 
 impl Window {
-    /// The box around pixels of an image with so many columns; `None` without any.
-    pub fn around(pixels: &[u64], columns: u32) -> Option<Self> {
+    /// Windows of pixels of an image with so many columns, given by their numbers in order: one for each part that
+    /// hangs together by sides, in the order of their first pixels.
+    ///
+    /// Parts that meet at a corner only are polygons of their own: one ring around both would touch itself.
+    pub fn parts(pixels: &[u64], columns: u32) -> Vec<Self> {
+        let parts = parts(pixels, u64::from(columns));
+        parts.iter().filter_map(|part| Self::around(part, columns)).collect()
+    }
+
+    /// The box around pixels; `None` without any.
+    fn around(pixels: &[u64], columns: u32) -> Option<Self> {
         let columns = u64::from(columns);
         let place = |pixel: &u64| [(pixel % columns) as u32, (pixel / columns) as u32];
         let mut low = [u32::MAX; 2];
@@ -78,15 +88,74 @@ impl Window {
         let polygon = |rings: &Vec<Vec<Point>>| rings.iter().map(ring).collect();
         outline(&self.mask).iter().map(polygon).collect()
     }
+}
 
-    /// The outlines in the plane of the grid of the image.
-    pub fn polygons(&self, grid: &Grid) -> Polygons {
-        placed(grid, &self.corners())
+/// The polygons of pixels, given by their numbers in order, in the plane of the grid of their image.
+pub(crate) fn polygons(pixels: &[u64], grid: &Grid) -> Polygons {
+    let windows = Window::parts(pixels, grid.columns);
+    windows.iter().flat_map(|window| placed(grid, &window.corners())).collect()
+}
+
+/// The parts of pixels, given in order, that hang together by sides, each in order.
+fn parts(pixels: &[u64], columns: u64) -> Vec<Vec<u64>> {
+    let mut parent: Vec<u32> = (0..pixels.len() as u32).collect();
+    // The first pixel that is not before the one above.
+    let mut above = 0;
+    for (k, &pixel) in pixels.iter().enumerate() {
+        if k > 0 && pixels[k - 1] + 1 == pixel && !pixel.is_multiple_of(columns) {
+            join(&mut parent, k as u32 - 1, k as u32);
+        }
+        while pixels[above] + columns < pixel {
+            above += 1;
+        }
+        if pixels[above] + columns == pixel {
+            join(&mut parent, above as u32, k as u32);
+        }
     }
+    let mut parts: Vec<Vec<u64>> = Vec::new();
+    let mut part_of = vec![0; pixels.len()];
+    for (k, &pixel) in pixels.iter().enumerate() {
+        // The first one of a part comes before the others.
+        let first = find(&mut parent, k as u32) as usize;
+        if first == k {
+            part_of[k] = parts.len();
+            parts.push(Vec::new());
+        }
+        parts[part_of[first]].push(pixel);
+    }
+    parts
 }
 
 /// Corners of pixels in the plane of a grid.
 pub(crate) fn placed(grid: &Grid, polygons: &[Vec<Vec<[u32; 2]>>]) -> Polygons {
     let ring = |ring: &Vec<[u32; 2]>| ring.iter().map(|&[x, y]| grid.corner(x, y)).collect();
     polygons.iter().map(|polygon| polygon.iter().map(ring).collect()).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn parts_hang_together_by_sides() {
+        // Three columns: one and two pixels that meet at a corner, and one in the next row that is no neighbour.
+        //   # . #
+        //   . # .
+        //   . # #
+        assert_eq!(parts(&[0, 2, 4, 7, 8], 3), [vec![0], vec![2], vec![4, 7, 8]]);
+        // The end of a row is not beside the start of the next one, and a part may begin twice.
+        assert_eq!(parts(&[2, 3, 5], 3), [vec![2, 5], vec![3]]);
+        assert_eq!(parts(&[0, 2, 3, 4, 5], 3), [vec![0, 2, 3, 4, 5]]);
+        assert_eq!(parts(&[], 3), Vec::<Vec<u64>>::new());
+    }
+
+    #[test]
+    fn pixels_that_meet_at_a_corner_are_polygons_of_their_own() {
+        let found = polygons(&[0, 3], &Grid::of_image(2, 2));
+        let square = |x: f64, y: f64| {
+            let corners = [[x, y], [x, y - 1.0], [x + 1.0, y - 1.0], [x + 1.0, y]];
+            vec![corners.map(|[x, y]| Point::new(x, y)).to_vec()]
+        };
+        assert_eq!(found, [square(0.0, 0.0), square(1.0, -1.0)]);
+    }
 }

@@ -1,7 +1,7 @@
 //! Regions as polygons whose borders are the same points on both sides.
 
 use crate::labels::Labels;
-use crate::pixels::{Pixels, Window};
+use crate::pixels::{Pixels, polygons};
 use medial::geom::Point;
 
 impl Labels {
@@ -14,19 +14,13 @@ impl Labels {
         assert!(region < self.len(), "a region");
         let all = (0..).zip(self.labels());
         let own = all.filter(|&(_, &label)| label == region).map(|(k, _)| k).collect::<Vec<u64>>();
-        self.polygons_of(&own)
+        polygons(&own, self.grid())
     }
 
     /// The polygons of every region, in their order. Linear in pixels and boxes of regions.
     pub fn all_polygons(&self) -> impl Iterator<Item = Vec<Vec<Vec<Point>>>> + '_ {
         let pixels = Pixels::by_number(self.labels(), self.len());
-        (0..self.len()).map(move |region| self.polygons_of(pixels.of(region)))
-    }
-
-    /// The polygons of pixels, given by their numbers in order.
-    fn polygons_of(&self, pixels: &[u64]) -> Vec<Vec<Vec<Point>>> {
-        let window = Window::around(pixels, self.grid().columns);
-        window.map_or_else(Vec::new, |window| window.polygons(self.grid()))
+        (0..self.len()).map(move |region| polygons(pixels.of(region), self.grid()))
     }
 }
 

@@ -8,11 +8,23 @@ use crate::merging::merge_small;
 /// that are not greater than it. Regions of fewer pixels than the least go to the neighbour that is most alike.
 #[must_use]
 pub fn thresholds(field: &Field, limits: &[f32], min_region: u64) -> Labels {
-    let class = |value: &[f32; 3]| match value[0].is_nan() {
-        true => Labels::NONE,
-        false => limits.iter().filter(|&&limit| limit <= value[0]).count() as u32,
+    let values: Vec<f32> = field.values().iter().map(|value| value[0]).collect();
+    thresholds_of(field, &values, limits, min_region)
+}
+
+/// The same between thresholds of other values, one for each pixel, such as those of a band in its own units. Where the
+/// field has no data there is no region.
+///
+/// # Panics
+/// If there are not as many values as pixels.
+#[must_use]
+pub fn thresholds_of(field: &Field, values: &[f32], limits: &[f32], min_region: u64) -> Labels {
+    assert_eq!(values.len(), field.values().len(), "a value for each pixel");
+    let class = |k: usize| match field.is_known(k) {
+        true => limits.iter().filter(|&&limit| limit <= values[k]).count() as u32,
+        false => Labels::NONE,
     };
-    regions(field, class, min_region)
+    regions(field, (0..values.len()).map(class).collect(), min_region)
 }
 
 /// The regions of pixels nearest to each of some colours and within a distance of it, and of those that are near
@@ -30,11 +42,10 @@ pub fn near_colours(field: &Field, colours: &[[f32; 3]], distance: f32, min_regi
             _ => colours.len() as u32,
         }
     };
-    regions(field, class, min_region)
+    regions(field, field.values().iter().map(class).collect(), min_region)
 }
 
-fn regions(field: &Field, class: impl Fn(&[f32; 3]) -> u32, min_region: u64) -> Labels {
-    let class: Vec<u32> = field.values().iter().map(class).collect();
+fn regions(field: &Field, class: Vec<u32>, min_region: u64) -> Labels {
     merge_small(Labels::connected(*field.grid(), &class, |_, _| true), field, min_region)
 }
 
@@ -49,6 +60,15 @@ mod tests {
         let field = Field::new(Grid::of_image(6, 1), values).unwrap();
         let labels = thresholds(&field, &[1.0, 3.0], 0);
         assert_eq!(labels.labels(), [0, 1, 1, 2, Labels::NONE, 3]);
+    }
+
+    #[test]
+    fn thresholds_may_be_of_other_values() {
+        let kelvin = [280.0, 300.0, 320.0, 300.0];
+        let bands = [[280.0; 3], [300.0; 3], [320.0; 3], [f32::NAN; 3]];
+        let field = Field::of_bands(Grid::of_image(4, 1), bands).unwrap();
+        let labels = thresholds_of(&field, &kelvin, &[300.0], 0);
+        assert_eq!(labels.labels(), [0, 1, 1, Labels::NONE]);
     }
 
     #[test]

@@ -2,6 +2,7 @@
 
 use crate::Error;
 use crate::svg::{self, Lettering, Options, Overlay, Scene};
+use medial::raster::Grid;
 use resvg::tiny_skia::{ColorU8, Pixmap, Transform};
 use resvg::usvg::{self, Tree};
 
@@ -36,6 +37,26 @@ pub fn write_overlay(overlay: &Overlay, options: &Options) -> Result<Vec<u8>, Er
         *pixel = ColorU8::from_rgba(byte(red), byte(green), byte(blue), 255).premultiply();
     }
     painted(&tree, ground)
+}
+
+/// Where the pixels of that picture lie in the plane, its margins and its legend among them.
+#[must_use]
+pub fn overlay_grid(overlay: &Overlay, options: &Options) -> Grid {
+    overlay.drawing(&svg::painted_options(options), f64::from(SCALE))
+}
+
+/// The text of a world file, which tells where the pixels of a picture lie: six lines with the width of a pixel, two
+/// turns that are 0, its height, which is negative where rows go down, and the centre of the first pixel.
+///
+/// ```
+/// use medial::{geom::Point, raster::Grid};
+/// let grid = Grid { origin: Point::new(100.0, 50.0), cell: [2.0, -2.0], columns: 3, rows: 4 };
+/// assert_eq!(medial_io::png::world_file(&grid), "2\n0\n0\n-2\n101\n49\n");
+/// ```
+#[must_use]
+pub fn world_file(grid: &Grid) -> String {
+    let ([width, height], first) = (grid.cell, grid.centre(0, 0));
+    format!("{width}\n0\n0\n{height}\n{}\n{}\n", first.x, first.y)
 }
 
 fn failed(why: String) -> Error {
@@ -75,13 +96,13 @@ mod tests {
     fn a_picture_shows_through_where_no_line_is() {
         use crate::svg::{LineStyle, OverlayLayer};
         use medial::geom::Point;
-        use medial::raster::Grid;
         let style = LineStyle { color: "#0000ff", width: 40.0, dashes: &[], fill: 0.0 };
         let lines = vec![vec![Point::new(0.0, -0.5), Point::new(2.0, -0.5)]];
         let layer = OverlayLayer { name: "axis", style, lines, are_rings: false };
         let grid = Grid::of_image(2, 1);
         let colours = vec![[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
-        let overlay = Overlay { grid, colours, layers: vec![layer] };
+        let layers = vec![layer];
+        let overlay = Overlay { grid, colours, layers, is_georeferenced: false, crs: None };
         let options = Options { legend: false, ..Options::default() };
         let bytes = write_overlay(&overlay, &options).unwrap();
         let read = crate::image::read_colours(crate::Format::Png, &bytes, &[]).unwrap();

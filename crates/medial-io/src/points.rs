@@ -6,22 +6,32 @@
 //! separate values, whichever the first row has.
 //!
 //! The polygons are the closed rings of the [crust](medial::engine::border), as one polygon, so that which are holes is
-//! told by nesting; how many points lie on none of them is noted.
+//! told by nesting; how many points lie on none of them, and how many are given once more, is noted.
 
 use crate::feature::Note;
 use crate::{Error, Feature, Layer};
 use medial::engine::{Border, border};
 use medial::geom::Point;
+use std::collections::HashSet;
 
 /// Reads the border of the points in a text.
 ///
 /// # Errors
 /// If there are no rows, or a row has no two finite numbers where coordinates are.
 pub fn read(text: &str) -> Result<Layer<'_>, Error> {
-    let points = points(text)?;
+    let mut points = points(text)?;
+    let n_given = points.len();
+    let mut seen = HashSet::with_capacity(n_given);
+    // Both zeros are one number.
+    points.retain(|p| seen.insert([p.x, p.y].map(|v| (v + 0.0).to_bits())));
+    let n_repeats = n_given - points.len();
     let Border { rings, left_out } = border(&points);
     let mut feature = Feature::numbered(0);
-    feature.geometry = format!("{} points without a closed border", points.len());
+    feature.geometry = format!("{n_given} points without a closed border");
+    if n_repeats > 0 {
+        let text = format!("{n_repeats} points are given once more and taken once");
+        feature.notes.push(Note { code: "duplicate_point", text });
+    }
     if !rings.is_empty() {
         if !left_out.is_empty() {
             let text =
@@ -111,6 +121,18 @@ mod tests {
         let read = feature(&text);
         assert_eq!(read.polygons[0][0].len(), 60);
         assert_eq!(read.notes[0].code, "point_left_out");
+        // What is given once more is no other point.
+        let rows = circle("name,x,y\n", ',');
+        let twice = feature(&(rows.clone() + rows.split_once('\n').unwrap().1 + "far,50,1\n"));
+        assert_eq!(twice.polygons, read.polygons);
+        let notes: Vec<_> = twice.notes.iter().map(|n| (n.code, n.text.as_str())).collect();
+        assert_eq!(
+            notes,
+            [
+                ("duplicate_point", "60 points are given once more and taken once"),
+                ("point_left_out", "1 points lie on no closed border and are left out"),
+            ]
+        );
         let line = feature("0 0\n1 1\n2 2\n");
         assert!(!line.polygonal && line.geometry == "3 points without a closed border");
     }

@@ -3,7 +3,7 @@ use crate::failure::Failure;
 use clap::Args;
 use medial::axis::Engine;
 use medial::engine::{Burning, RidgeSearch, RidgeThinning};
-use medial_io::Feature;
+use medial_io::{Feature, Format};
 use std::num::NonZeroU32;
 
 /// Who computes an axis, for commands that know sampled ones.
@@ -64,6 +64,17 @@ impl ChosenEngine {
                 Err(Failure::Usage(format!("{option} is for --engine {engine}")))
             }
             None => Ok(()),
+        }
+    }
+
+    /// Fails if something is said of images, and the input is none.
+    pub fn check_input(&self, format: Format) -> Result<(), Failure> {
+        let is_image = matches!(format, Format::Png | Format::Jpeg | Format::Tiff);
+        match self.smooth_border {
+            Some(_) if !is_image => Err(Failure::Usage(format!(
+                "--smooth-border is for images, whose outlines have steps; the input is {format}"
+            ))),
+            _ => Ok(()),
         }
     }
 

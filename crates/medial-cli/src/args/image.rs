@@ -55,7 +55,8 @@ pub struct ImageArgs {
     #[command(flatten)]
     pub pruning: Pruning,
     /// Simplify the borders between regions within this distance, in units of the input: once for both sides, so
-    /// that regions still fit, and without a change of topology
+    /// that regions still fit, and without a change of topology; axes of delaunay_dual end where borders touch
+    /// themselves in a corner of 180 degrees or more
     #[arg(long, value_name = "D", value_parser = positive, allow_negative_numbers = true)]
     pub simplify: Option<f64>,
     /// What is written, separated by commas: border, delaunay, crust, dual, axis; by default border and axis. Of
@@ -73,7 +74,7 @@ pub struct ImageArgs {
     #[arg(long, value_name = "X1,Y1,X2,Y2", value_parser = two_points, allow_hyphen_values = true)]
     pub window: Option<[Point; 2]>,
     /// Part another image of the same place in the same way, choose the same of it, and write what became of the
-    /// objects of the first one
+    /// objects of the first one; bands go from 0 to 100 as in the first one
     #[arg(long, value_name = "IMAGE")]
     pub compare: Option<PathBuf>,
     /// The least overlap of an object with what it became: what both share, of what either has; less of it, and one

@@ -8,8 +8,9 @@ use std::path::PathBuf;
 const SEGMENT_HELP: &str = "\
 Every pixel of the image comes into one region; regions are connected by sides of pixels, numbered row by row,
 and their polygons share their borders exactly. feature_space looks for the colours that stand out in the whole
-image, mean_shift for what is alike in place and colour; threshold cuts at values of the first band, colours takes
-what is near to colours that are named. Colours are compared in L*u*v*; bands that are no colours go from 0 to 100.
+image, mean_shift for what is alike in place and colour; threshold cuts at values of the first band in its own units,
+or of the lightness L*, colours takes what is near to colours that are named. Colours are compared in L*u*v*; bands
+that are no colours go from 0, their least value, to 100 for distances and means.
 What is transparent, has the value for no data, or is not a number, is in no region.
 
 Formats: geojson, geojsonl, csv, wkt, wkb, rings, dxf and tables, a polygon for each region with its number,
@@ -61,7 +62,8 @@ pub struct Segmentation {
     /// The radius of mean_shift among the values; by default 6.5
     #[arg(long, value_name = "R", value_parser = positive)]
     pub range: Option<f64>,
-    /// Limits of threshold, in increasing order, separated by commas: lightness for colours
+    /// Limits of threshold, in increasing order, separated by commas: in units of the first band, or lightness from 0
+    /// to 100 for colours
     #[arg(long, value_name = "T,T", value_delimiter = ',', allow_negative_numbers = true)]
     pub limits: Vec<f32>,
     /// Colours of colours, as RRGGBB, separated by commas

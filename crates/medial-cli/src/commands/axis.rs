@@ -63,6 +63,7 @@ fn run_on(args: &'static AxisArgs, documents: Documents) -> Result<Status, Failu
     };
     run.masks_alone = asks_for_masks_alone(args, format);
     let input = run.open_with(&args.input, documents)?;
+    args.engine.check_input(input.format)?;
     let layer = timed(&mut run.stages.read, || input.layer())?;
     let picture = Options {
         title: title("Medial axis", &args.input),

@@ -76,6 +76,7 @@ pub fn run(args: &'static BranchesArgs) -> Result<Status, Failure> {
         engine: args.engine.engine,
     };
     let input = run.open_with(&args.input, Documents::AsPolygons)?;
+    args.engine.check_input(input.format)?;
     plan.run(run, input, move |feature, domain, stages, options| {
         let tolerance = args.tolerance.unwrap_or_else(|| domain_tolerance(domain));
         if args.limbs {

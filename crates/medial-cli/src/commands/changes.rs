@@ -2,15 +2,16 @@
 
 use super::features::Run;
 use super::image::{Drawn, FORMATS, lines, picture};
+use super::place::{box_ring, is_georeferenced};
 use super::records::{Found, Plan};
 use super::regions::{self, Parted, color};
 use super::sink::title;
 use crate::args::{ImageArgs, ImageLayer};
 use crate::failure::{Failure, Status};
 use crate::timings::timed;
-use medial::geom::Point;
 use medial_image::{Change, Changes, Objects, Part};
 use medial_io::record::{self, Record, Shape, Value};
+use medial_io::svg::Overlay;
 use medial_io::{Feature, Format, Layer};
 use std::path::Path;
 
@@ -42,8 +43,12 @@ pub fn run(
     objects: &Objects,
     other: &Path,
 ) -> Result<Status, Failure> {
-    let after = regions::parted(&args.segmentation, other, &mut run, false)?;
+    let after = regions::parted(&args.segmentation, other, &mut run, false, Some(before))?;
+    check_alike(before, &after)?;
     let objects_after = timed(&mut run.stages.operations, || after.chosen(&args.choice))?;
+    if objects.all().is_empty() && objects_after.all().is_empty() {
+        return Err(before.unchosen(Some(&after)));
+    }
     let changes = timed(&mut run.stages.operations, || {
         Changes::new(objects, &objects_after, args.min_overlap)
     });
@@ -82,16 +87,19 @@ pub fn run(
         engine: None,
     };
     let is_picture = matches!(format, Format::Svg | Format::Png);
-    let (grid, colours) = (*objects.grid(), before.colours.clone());
+    let (grid, colours, crs) = (*objects.grid(), before.colours.clone(), before.crs.clone());
+    let is_georeferenced = is_georeferenced(&grid, crs.as_ref());
+    let overlay = Overlay { grid, colours, layers: Vec::new(), is_georeferenced, crs };
     // A feature each, of which nothing is computed any more.
     let feature = |index: usize| {
-        let corners = [(0, 0), (grid.columns, 0), (grid.columns, grid.rows), (0, grid.rows)];
-        let ring: Vec<Point> = corners.map(|(column, row)| grid.corner(column, row)).to_vec();
+        let ring = box_ring(&grid, [0, 0], [grid.columns, grid.rows]);
         Feature { index, polygons: vec![vec![ring]], polygonal: true, ..Feature::default() }
     };
     let features: Vec<Feature> = (0..records.len()).map(feature).collect();
-    let layer = Layer::of_features(before.crs.clone(), features.into_iter());
-    plan.run_on(
+    let mut layer = Layer::of_features(before.crs.clone(), features.into_iter());
+    layer.warnings.extend(uncompared(&changes, described.objects, &after));
+    let mut drawn = None;
+    let status = plan.run_on(
         run,
         &before.input.name,
         layer,
@@ -114,10 +122,50 @@ pub fn run(
         |parts, stages| {
             let title = title("Changes", &args.input);
             timed(&mut stages.write, || {
-                picture(args, format, title, (grid, colours), &layers, parts)
+                let picture = picture(args, format, title, overlay, &layers, parts)?;
+                Ok(drawn.insert(picture).take_bytes())
             })
         },
-    )
+    )?;
+    drawn.map_or(Ok(()), |picture| picture.tell_place(args))?;
+    Ok(status)
+}
+
+/// Fails unless two images are of one kind and, as far as that is known, in one reference system.
+fn check_alike(before: &Parted, after: &Parted) -> Result<(), Failure> {
+    let name = &after.input.name;
+    let wrong = |why: std::fmt::Arguments<'_>| Err(before.input.wrong(why));
+    if let (Some(crs), Some(other)) = (&before.crs, &after.crs)
+        && crs.differs_from(other)
+    {
+        return wrong(format_args!(
+            "the reference system is {crs}, that of {name} {other}; project one image into the system of the other"
+        ));
+    }
+    if before.are_bands != after.are_bands {
+        let kind = |parted: &Parted| if parted.are_bands { "bands" } else { "colours" };
+        let (kind, other) = (kind(before), kind(after));
+        return wrong(format_args!(
+            "the image has {kind}, {name} {other}; compare two of a kind, or name bands of both with --bands"
+        ));
+    }
+    Ok(())
+}
+
+/// What of the objects of two images is not compared, if there is such.
+fn uncompared(changes: &Changes, objects: [&Objects; 2], after: &Parted) -> Vec<String> {
+    let whose = ["its objects".to_owned(), format!("the objects of {}", after.input.name)];
+    let told = changes.uncompared().into_iter().zip(objects).zip(whose);
+    told.filter(|((left_out, _), _)| left_out.cells > 0)
+        .map(|((left_out, objects), whose)| {
+            let all: u64 = objects.all().iter().map(|object| object.whole.cells).sum();
+            let (cells, n) = (left_out.cells, left_out.objects);
+            format!(
+                "{cells} of the {all} pixels of {whose} lie where only one image has data, {n} objects as a whole; \
+                 they are not compared"
+            )
+        })
+        .collect()
 }
 
 /// The objects of both images.

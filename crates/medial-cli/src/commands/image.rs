@@ -1,6 +1,7 @@
 use super::axis::{dual, pruned, traced};
 use super::changes;
 use super::features::Run;
+use super::place::{is_georeferenced, is_mirrored, write_beside};
 use super::records::{Found, Plan};
 use super::regions::{self, Parted, color};
 use super::sink::title;
@@ -64,10 +65,13 @@ pub fn run(args: &'static ImageArgs) -> Result<Status, Failure> {
     let mut run = Run::new(kept(args.run.common()))?;
     run.knows_metric = false;
     let is_picture = matches!(format, Format::Svg | Format::Png);
-    let parted = regions::parted(&args.segmentation, &args.input, &mut run, is_picture)?;
+    let parted = regions::parted(&args.segmentation, &args.input, &mut run, is_picture, None)?;
     let objects = timed(&mut run.stages.operations, || parted.chosen(&args.choice))?;
     if let Some(other) = &args.compare {
         return changes::run(args, run, format, &parted, &objects, other);
+    }
+    if objects.all().is_empty() {
+        return Err(parted.unchosen(None));
     }
     let Parted { input, crs, are_bands, colours, .. } = parted;
     let (grid, objects) = (*objects.grid(), Arc::new(objects));
@@ -79,6 +83,8 @@ pub fn run(args: &'static ImageArgs) -> Result<Status, Failure> {
         columns: COLUMNS,
         engine: args.engine(cell).engine,
     };
+    let is_georeferenced = is_georeferenced(&grid, crs.as_ref());
+    let overlay = Overlay { grid, colours, layers: Vec::new(), is_georeferenced, crs: crs.clone() };
     let layer = timed(&mut run.stages.operations, || layer(&objects, crs, args.simplify));
     let drafter = Drafter {
         engine: args.engine(cell),
@@ -91,7 +97,8 @@ pub fn run(args: &'static ImageArgs) -> Result<Status, Failure> {
         is_simplified: args.simplify.is_some(),
         objects,
     };
-    plan.run_on(
+    let mut drawn = None;
+    let status = plan.run_on(
         run,
         &input.name,
         layer,
@@ -107,10 +114,13 @@ pub fn run(args: &'static ImageArgs) -> Result<Status, Failure> {
         |parts: Vec<Vec<Drawn>>, stages| {
             let title = title("Regions", &args.input);
             timed(&mut stages.write, || {
-                picture(args, format, title, (grid, colours), &layers, parts)
+                let picture = picture(args, format, title, overlay, &layers, parts)?;
+                Ok(drawn.insert(picture).take_bytes())
             })
         },
-    )
+    )?;
+    drawn.map_or(Ok(()), |picture| picture.tell_place(args))?;
+    Ok(status)
 }
 
 /// The format of the output, if layers have it.
@@ -140,16 +150,20 @@ fn layer(objects: &Arc<Objects>, crs: Option<Crs>, simplify: Option<f64>) -> Lay
     let borders = simplify.map(|tolerance| objects.borders(tolerance));
     let n = objects.all().len();
     let objects = Arc::clone(objects);
+    let is_mirrored = is_mirrored(objects.grid());
     let feature = move |index: usize| {
         let mask = match borders {
             Some(_) => None,
             None => objects.mask(index as u32).ok().map(Arc::new),
         };
-        let polygons = match (&borders, &mask) {
+        let mut polygons = match (&borders, &mask) {
             (Some(borders), _) => objects.polygons_between(index as u32, borders),
             (None, Some(mask)) => outline(mask),
             (None, None) => Vec::new(),
         };
+        if is_mirrored {
+            polygons.iter_mut().flatten().for_each(|ring| ring[1..].reverse());
+        }
         Feature {
             index,
             polygons,
@@ -346,22 +360,43 @@ pub fn lines(shape: Shape) -> Vec<Vec<Point>> {
     }
 }
 
+/// A picture, and where it lies.
+pub struct Picture {
+    bytes: Vec<u8>,
+    /// The pixels of PNG in the plane of a georeference, and its reference system.
+    place: Option<(Grid, Option<Crs>)>,
+}
+
+impl Picture {
+    pub fn take_bytes(&mut self) -> Vec<u8> {
+        std::mem::take(&mut self.bytes)
+    }
+
+    /// Writes beside the file that was drawn where it lies, if it cannot tell it itself.
+    pub fn tell_place(&self, args: &ImageArgs) -> Result<(), Failure> {
+        match &self.place {
+            Some((grid, crs)) => write_beside(args.target.output.as_deref(), grid, crs.as_ref()),
+            None => Ok(()),
+        }
+    }
+}
+
 /// The picture of layers over the pixels of an image.
 pub fn picture(
     args: &ImageArgs,
     format: Format,
     title: String,
-    (grid, colours): (Grid, Vec<[f32; 3]>),
+    mut overlay: Overlay,
     layers: &[ImageLayer],
     parts: Vec<Vec<Drawn>>,
-) -> Result<Vec<u8>, Failure> {
+) -> Result<Picture, Failure> {
     let mut drawn: Vec<OverlayLayer> = layers.iter().map(|&layer| overlay_layer(layer)).collect();
     for (layer, lines) in parts.into_iter().flatten() {
         if let Some(number) = layers.iter().position(|&other| other == layer) {
             drawn[number].lines.extend(lines);
         }
     }
-    let mut overlay = Overlay { grid, colours, layers: drawn };
+    overlay.layers = drawn;
     if let Some([a, b]) = args.window {
         let min = Point::new(a.x.min(b.x), a.y.min(b.y));
         let max = Point::new(a.x.max(b.x), a.y.max(b.y));
@@ -371,11 +406,14 @@ pub fn picture(
         })?;
     }
     let options = Options { title, ..Options::default() };
-    match format {
-        Format::Svg => Ok(svg::write_overlay(&overlay, &options).into_bytes()),
-        _ => png::write_overlay(&overlay, &options)
-            .map_err(|error| Failure::file("<picture>", error)),
+    if format == Format::Svg {
+        let bytes = svg::write_overlay(&overlay, &options).into_bytes();
+        return Ok(Picture { bytes, place: None });
     }
+    let bytes = png::write_overlay(&overlay, &options);
+    let bytes = bytes.map_err(|error| Failure::file("<picture>", error))?;
+    let grid = png::overlay_grid(&overlay, &options);
+    Ok(Picture { bytes, place: overlay.is_georeferenced.then_some((grid, overlay.crs)) })
 }
 
 fn overlay_layer(layer: ImageLayer) -> OverlayLayer {

@@ -11,6 +11,7 @@ mod features;
 pub mod image;
 pub mod locate;
 pub mod offset;
+mod place;
 pub mod reconstruct;
 mod records;
 mod regions;

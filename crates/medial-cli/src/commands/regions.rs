@@ -5,11 +5,11 @@ use crate::args::{Choice, SegmentMethod, Segmentation};
 use crate::failure::Failure;
 use crate::guard::guarded;
 use crate::input::Input;
-use crate::progress::Progress;
+use crate::progress::{Progress, Steps};
 use crate::timings::timed;
 use medial_image::{
     Action, Analysis, Click, Field, Filter, Labels, Objects, Region, Selection, feature_space, luv,
-    mean_shift, near_colours, srgb, thresholds,
+    mean_shift_with, near_colours, srgb, thresholds, thresholds_of,
 };
 use medial_io::record::Value;
 use medial_io::{Content, Crs, Format, clicks, image};
@@ -25,6 +25,8 @@ pub struct Parted {
     pub crs: Option<Crs>,
     /// Whether what it has are bands, and no colours.
     pub are_bands: bool,
+    /// The values of bands that became 0 and 100.
+    extents: [[f32; 2]; 3],
     pub labels: Labels,
     pub regions: Vec<Region>,
     /// Its pixels in colours, if they were asked for; bands are grey.
@@ -34,32 +36,50 @@ pub struct Parted {
 /// How far from its colour a pixel, or the mean of a region, may be where nothing is said.
 const TOLERANCE: f64 = 20.0;
 
-/// Reads an image and parts it into regions.
+/// Reads an image and parts it into regions; bands go from 0 to 100 as in another one beside which it is looked at.
 pub fn parted(
     args: &'static Segmentation,
     path: &Path,
     run: &mut Run,
     keeps_colours: bool,
+    beside: Option<&Parted>,
 ) -> Result<Parted, Failure> {
     let common = run.common;
     let input = timed(&mut run.stages.read, || Input::read(path))?;
     let colours = timed(&mut run.stages.read, || colours(args, common.from, path, &input))?;
     let image::Colours { grid, crs, values, are_bands } = colours;
     let kept = if keeps_colours { values.clone() } else { Vec::new() };
-    let field = timed(&mut run.stages.engine, || match are_bands {
-        true => Field::of_bands(grid, values),
-        false => Field::of_colours(grid, values),
-    });
-    let field = field.map_err(|error| input.wrong(error))?;
+    // Limits are in units of the first band.
+    let is_cut = are_bands && args.method == SegmentMethod::Threshold;
+    let band: Option<Vec<f32>> = is_cut.then(|| values.iter().map(|value| value[0]).collect());
+    let (field, own) = timed(&mut run.stages.engine, || {
+        let field = match are_bands {
+            true => Field::new(grid, values),
+            false => Field::of_colours(grid, values),
+        };
+        field.map(|field| {
+            let extents = field.extents();
+            (field, extents)
+        })
+    })
+    .map_err(|error| input.wrong(error))?;
+    let extents = beside.map_or(own, |other| other.extents);
+    let field = if are_bands { field.stretched(extents) } else { field };
     let colours = match (keeps_colours, are_bands) {
         (true, true) => field.values().iter().map(|&value| shown(value, true)).collect(),
         _ => kept,
     };
     let threads = run.all_threads();
-    let progress = Progress::working(common.progress, common.quiet, "parting the image");
+    let what = "parting the image";
+    let counted = (args.method == SegmentMethod::MeanShift).then_some(grid.rows);
+    let progress = Progress::working(common.progress, common.quiet, what, counted);
+    if let Some(told) = one_sided(&args.limits, own[0]) {
+        progress.warning(&format!("{}: {told}", input.name));
+    }
+    let steps = progress.steps();
     let found = timed(&mut run.stages.engine, || {
         within(common.limit(), move || {
-            let labels = labels(args, &field, threads);
+            let labels = labels(args, &field, band.as_deref(), threads, &steps);
             let regions = labels.regions(&field);
             (labels, regions)
         })
@@ -75,7 +95,15 @@ pub fn parted(
     if labels.is_empty() {
         return Err(input.wrong("has no pixel with data; there is nothing to part"));
     }
-    Ok(Parted { input, crs, are_bands, labels, regions, colours })
+    Ok(Parted { input, crs, are_bands, extents, labels, regions, colours })
+}
+
+/// What to say of a limit that has all values on one side.
+fn one_sided(limits: &[f32], [low, high]: [f32; 2]) -> Option<String> {
+    let beyond = limits.iter().find(|&&limit| low <= high && (limit <= low || limit > high))?;
+    Some(format!(
+        "the limit {beyond} has all values, which go from {low} to {high}, on one side, and parts nothing"
+    ))
 }
 
 /// What work gives, unless it takes longer; then it is left to itself.
@@ -95,7 +123,7 @@ fn within<T: Send + 'static>(
 }
 
 impl Parted {
-    /// The regions that are chosen, as objects.
+    /// The regions that are chosen, as objects; there may be none.
     pub fn chosen(&self, choice: &Choice) -> Result<Objects, Failure> {
         let Choice { min_pixels, max_pixels, select_color, select_tolerance, .. } = choice;
         let has_filter = min_pixels.is_some() || max_pixels.is_some() || !select_color.is_empty();
@@ -121,14 +149,18 @@ impl Parted {
                 .click(&self.labels, click)
                 .map_err(|error| self.input.wrong(format_args!("{place}: {error}")))?;
         }
-        if chosen.objects().is_empty() {
-            let n = self.regions.len();
-            let why = format!(
-                "none of its {n} regions is chosen; see them with `medial segment`, and choose others"
-            );
-            return Err(self.input.wrong(why));
-        }
         Ok(Objects::new(&self.labels, &self.regions, &chosen))
+    }
+
+    /// That no region is chosen, here or in another image.
+    pub fn unchosen(&self, other: Option<&Self>) -> Failure {
+        let n = self.regions.len();
+        let beside = other.map_or_else(String::new, |other| {
+            format!(", nor of the {} of {}", other.regions.len(), other.input.name)
+        });
+        self.input.wrong(format_args!(
+            "none of its {n} regions is chosen{beside}; see them with `medial segment`, and choose others"
+        ))
     }
 
     /// All clicks, each with the place where it is said.
@@ -231,7 +263,13 @@ fn colours(
 }
 
 /// The regions by the method that is asked for.
-fn labels(args: &Segmentation, field: &Field, threads: NonZeroUsize) -> Labels {
+fn labels(
+    args: &Segmentation,
+    field: &Field,
+    band: Option<&[f32]>,
+    threads: NonZeroUsize,
+    steps: &Steps,
+) -> Labels {
     let min_region = args.min_region.unwrap_or(1);
     match args.method {
         SegmentMethod::FeatureSpace => {
@@ -250,9 +288,12 @@ fn labels(args: &Segmentation, field: &Field, threads: NonZeroUsize) -> Labels {
                 min_region: args.min_region.unwrap_or(usual.min_region),
                 threads,
             };
-            mean_shift(field, &filter)
+            mean_shift_with(field, &filter, &|| steps.step())
         }
-        SegmentMethod::Threshold => thresholds(field, &args.limits, min_region),
+        SegmentMethod::Threshold => match band {
+            Some(band) => thresholds_of(field, band, &args.limits, min_region),
+            None => thresholds(field, &args.limits, min_region),
+        },
         SegmentMethod::Colours => {
             let colours: Vec<[f32; 3]> =
                 args.color.iter().map(|&colour| of_bytes(colour)).collect();

@@ -1,4 +1,5 @@
 use super::features::Run;
+use super::place::{box_ring, is_georeferenced, write_beside};
 use super::records::{Found, POLYGONS, Plan};
 use super::regions::{self, Parted, color, shown};
 use crate::args::SegmentArgs;
@@ -6,7 +7,6 @@ use crate::failure::{Failure, Status};
 use crate::output::Output;
 use crate::parallel::kept;
 use crate::timings::timed;
-use medial::geom::Point;
 use medial_image::{Object, Objects, Selection};
 use medial_io::record::{self, Record, Shape, Value};
 use medial_io::{Feature, Format, Layer, image};
@@ -35,7 +35,7 @@ pub fn run(args: &'static SegmentArgs) -> Result<Status, Failure> {
         return Err(Failure::Usage("a terminal shows no png; name a file with -o".to_owned()));
     }
     let numbers = args.labels.as_deref().map(|path| Output::create(Some(path))).transpose()?;
-    let parted = regions::parted(&args.segmentation, &args.input, &mut run, false)?;
+    let parted = regions::parted(&args.segmentation, &args.input, &mut run, false, None)?;
     let Parted { input, crs, are_bands, labels, regions, .. } = parted;
     let grid = *labels.grid();
     if let Some(output) = numbers {
@@ -50,7 +50,13 @@ pub fn run(args: &'static SegmentArgs) -> Result<Status, Failure> {
         };
         let pixels: Vec<[f32; 3]> = labels.labels().iter().map(of).collect();
         let bytes = image::write_colours(grid.columns, grid.rows, &pixels);
-        timed(&mut run.stages.write, || Output::create(file)?.whole(&bytes))?;
+        timed(&mut run.stages.write, || {
+            Output::create(file)?.whole(&bytes)?;
+            match is_georeferenced(&grid, crs.as_ref()) {
+                true => write_beside(file, &grid, crs.as_ref()),
+                false => Ok(()),
+            }
+        })?;
         return run.done(&input.name, regions.len());
     }
     let objects = timed(&mut run.stages.engine, || {
@@ -94,9 +100,7 @@ fn layer(objects: &Arc<Objects>, crs: Option<medial_io::Crs>) -> Layer<'static> 
     let objects = Arc::clone(objects);
     let feature = move |index: usize| {
         let Object { whole, .. } = &objects.all()[index];
-        let ([left, top], [right, bottom]) = (whole.first, whole.last.map(|k| k + 1));
-        let corners = [[left, top], [right, top], [right, bottom], [left, bottom]];
-        let ring: Vec<Point> = corners.map(|[x, y]| objects.grid().corner(x, y)).to_vec();
+        let ring = box_ring(objects.grid(), whole.first, whole.last.map(|k| k + 1));
         Feature {
             index,
             polygons: vec![vec![ring]],

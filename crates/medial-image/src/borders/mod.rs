@@ -80,14 +80,13 @@ impl Objects {
     /// If there is no such object.
     #[must_use]
     pub fn polygons_between(&self, object: u32, borders: &Borders) -> Polygons {
-        let Some(window) = self.window(object) else { return Vec::new() };
         let along = |ring: &Vec<Corner>| {
             let pairs = ring.iter().zip(ring.iter().cycle().skip(1));
             pairs.flat_map(|(&from, &to)| borders.between(from, to)).collect()
         };
-        let corners = window.corners();
+        let corners = self.windows(object).into_iter().flat_map(|window| window.corners());
         let polygons: Vec<Vec<Vec<Corner>>> =
-            corners.iter().map(|rings| rings.iter().map(along).collect()).collect();
+            corners.map(|rings| rings.iter().map(along).collect()).collect();
         placed(self.grid(), &polygons)
     }
 }

@@ -264,6 +264,22 @@ impl Crs {
         self.is_assumed
     }
 
+    /// Whether it and another one are known to be different: by their numbers at EPSG, else by what their well-known
+    /// texts say.
+    ///
+    /// ```
+    /// use medial_io::Crs;
+    /// assert!(Crs::epsg(32632).differs_from(&Crs::epsg(32633)));
+    /// assert!(!Crs::epsg(4326).differs_from(&Crs::of_geojson()));
+    /// ```
+    #[must_use]
+    pub fn differs_from(&self, other: &Self) -> bool {
+        match (self.epsg_code(), other.epsg_code()) {
+            (Some(code), Some(other)) => code != other,
+            _ => self.wkt().is_some_and(|wkt| !agreement::agree(&wkt, other)),
+        }
+    }
+
     /// Its name, as far as it has one.
     #[must_use]
     pub fn name(&self) -> Option<String> {

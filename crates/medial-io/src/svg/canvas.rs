@@ -120,6 +120,11 @@ impl Canvas {
         self.finish_on(title, &format!("<rect width=\"{w}\" height=\"{h}\" fill=\"#ffffff\"/>\n"))
     }
 
+    /// What machines are told, which is not drawn.
+    pub fn metadata(&mut self, text: &str) {
+        self.body.push_str(&format!("<metadata>\n{text}\n</metadata>\n"));
+    }
+
     /// The picture without a ground.
     pub fn finish_clear(self, title: &str) -> String {
         self.finish_on(title, "")

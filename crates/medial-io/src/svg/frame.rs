@@ -91,6 +91,18 @@ impl Frame {
         Point::new(self.origin.x + p.x, self.origin.y - p.y)
     }
 
+    /// The same as the matrix of SVG: the picture coordinates of (x, y) are (a x + c y + e, b x + d y + f).
+    pub fn matrix(&self) -> [f64; 6] {
+        let Self { low, scale, origin, .. } = *self;
+        [scale, 0.0, 0.0, -scale, origin.x - scale * low.x, origin.y + scale * low.y]
+    }
+
+    /// The point of the plane at picture coordinates.
+    pub fn unmap(&self, p: Point) -> Point {
+        let Self { low, scale, origin, .. } = *self;
+        Point::new(low.x + (p.x - origin.x) / scale, low.y + (origin.y - p.y) / scale)
+    }
+
     /// A length in picture units.
     pub fn length(&self, length: f64) -> f64 {
         length * self.scale

@@ -5,6 +5,7 @@ use super::frame::Frame;
 use super::layers::INK;
 use super::legend;
 use super::{Lettering, Options};
+use crate::Crs;
 use crate::image;
 use crate::text::escaped;
 use base64::Engine as _;
@@ -21,6 +22,10 @@ pub struct Overlay {
     pub colours: Vec<[f32; 3]>,
     /// What lies over them, the lowest one first.
     pub layers: Vec<OverlayLayer>,
+    /// Whether the plane is that of a georeference, which SVG tells in its metadata.
+    pub is_georeferenced: bool,
+    /// The reference system of the plane, if it is known.
+    pub crs: Option<Crs>,
 }
 
 /// Lines of one kind.
@@ -110,6 +115,16 @@ impl Overlay {
         Frame::over(corners.into_iter(), 1, options)
     }
 
+    /// The pixels of the drawing, margins and legend among them, `scale` of which are one of the frame, in the plane.
+    pub(crate) fn drawing(&self, options: &Options, scale: f64) -> Grid {
+        let frame = self.frame(options);
+        let [columns, rows] = [frame.size.x, frame.size.y].map(|side| (scale * side).ceil() as u32);
+        let origin = frame.unmap(Point::new(0.0, 0.0));
+        let next = frame.unmap(Point::new(1.0 / scale, 1.0 / scale));
+        let step = next - origin;
+        Grid { origin, cell: [step.x, step.y], columns, rows }
+    }
+
     /// For pixels of the drawing, `scale` of which are one of the frame, the size of the drawing and the colour of each
     /// where the picture is; else nothing.
     pub(crate) fn painted(
@@ -148,6 +163,9 @@ pub(crate) fn drawn(overlay: &Overlay, options: &Options, has_picture: bool) -> 
     let mut canvas = Canvas::new(frame, options.lettering);
     let Grid { columns, rows, .. } = overlay.grid;
     let [a, b] = [(0, 0), (columns, rows)].map(|(x, y)| frame.map(overlay.grid.corner(x, y)));
+    if has_picture && overlay.is_georeferenced {
+        canvas.metadata(&georeference(&frame, overlay.crs.as_ref()));
+    }
     if has_picture {
         let bytes = image::write_colours(columns, rows, &overlay.colours);
         let [sx, sy] = [(b.x - a.x) / f64::from(columns), (b.y - a.y) / f64::from(rows)];
@@ -206,6 +224,23 @@ pub(crate) fn drawn(overlay: &Overlay, options: &Options, has_picture: bool) -> 
     }
 }
 
+/// What SVG 1.1 has for maps, in section 7.12: the reference system, and how its coordinates became those of the picture.
+fn georeference(frame: &Frame, crs: Option<&Crs>) -> String {
+    let matrix = frame.matrix().map(|number| number.to_string()).join(" ");
+    let authority = crs.and_then(Crs::authority);
+    let resource = authority.map_or_else(String::new, |(authority, code)| {
+        let [authority, code] = [authority, code].map(escaped);
+        format!(" rdf:resource=\"http://www.opengis.net/def/crs/{authority}/0/{code}\"")
+    });
+    format!(
+        "<rdf:RDF xmlns:rdf=\"http://www.w3.org/1999/02/22-rdf-syntax-ns#\" \
+         xmlns:crs=\"http://www.ogc.org/crs\" xmlns:svg=\"http://www.w3.org/2000/svg\">\n\
+         <rdf:Description rdf:about=\"\">\n\
+         <crs:CoordinateReferenceSystem{resource} svg:transform=\"matrix({matrix})\"/>\n\
+         </rdf:Description>\n</rdf:RDF>"
+    )
+}
+
 fn stroke(color: &str, width: f64, dashes: &[f64]) -> String {
     let gaps: Vec<String> = dashes.iter().map(|&length| number(length)).collect();
     let gaps = match gaps[..] {
@@ -235,7 +270,34 @@ mod tests {
         let grid = Grid { origin: Point::new(10.0, 5.0), ..Grid::of_image(2, 1) };
         let lines = vec![vec![Point::new(10.0, 4.5), Point::new(12.0, 4.5)]];
         let layer = OverlayLayer { name: "axis", style: RED, lines, are_rings: false };
-        Overlay { grid, colours: vec![[1.0, 0.0, 0.0], [f32::NAN; 3]], layers: vec![layer] }
+        let colours = vec![[1.0, 0.0, 0.0], [f32::NAN; 3]];
+        Overlay { grid, colours, layers: vec![layer], is_georeferenced: false, crs: None }
+    }
+
+    #[test]
+    fn a_place_is_told_in_metadata() {
+        let bare = write_overlay(&overlay(), &Options::default());
+        assert!(!bare.contains("<metadata>"), "{bare}");
+        let crs = Some(Crs::epsg(32632));
+        let placed = Overlay { is_georeferenced: true, crs, ..overlay() };
+        let picture = write_overlay(&placed, &Options::default());
+        // 500 pixels a unit; (10, 5) is at (28, 28).
+        let told = "rdf:resource=\"http://www.opengis.net/def/crs/EPSG/0/32632\" \
+                    svg:transform=\"matrix(500 0 0 -500 -4972 2528)\"";
+        assert!(picture.contains(told), "{picture}");
+        let picture = write_overlay(&Overlay { crs: None, ..placed }, &Options::default());
+        assert!(picture.contains("<crs:CoordinateReferenceSystem svg:transform="), "{picture}");
+    }
+
+    #[test]
+    fn the_drawing_has_margins_in_the_plane() {
+        let options = Options { legend: false, ..Options::default() };
+        let Grid { origin, cell, columns, rows } = overlay().drawing(&options, 2.0);
+        assert_eq!((columns, rows), (2112, 1112));
+        // 1000 pixels a unit, and 56 around.
+        let is_near = |a: f64, b: f64| (a - b).abs() < 1e-12;
+        assert!(is_near(cell[0], 1e-3) && is_near(cell[1], -1e-3), "{cell:?}");
+        assert!(is_near(origin.x, 10.0 - 0.056) && is_near(origin.y, 5.056), "{origin:?}");
     }
 
     #[test]

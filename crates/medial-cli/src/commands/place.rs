@@ -1,0 +1,45 @@
+//! Where pixels lie in the plane, and in the world, which is told beside pictures that cannot tell it themselves.
+
+use crate::failure::Failure;
+use crate::output::Output;
+use medial::geom::Point;
+use medial::raster::Grid;
+use medial_io::{Crs, png};
+use std::fs;
+use std::path::Path;
+
+/// Whether pixels lie elsewhere than in an image without a place: at (0, 0), one unit wide.
+pub fn is_georeferenced(grid: &Grid, crs: Option<&Crs>) -> bool {
+    crs.is_some() || *grid != Grid::of_image(grid.columns, grid.rows)
+}
+
+/// Whether rows go down, or columns to the left, so that outlines of pixels have the shape on their right in the plane.
+pub fn is_mirrored(grid: &Grid) -> bool {
+    let [width, height] = grid.cell;
+    (width < 0.0) != (height < 0.0)
+}
+
+/// The ring around pixels between two corners, by column and row, counterclockwise in the plane.
+pub fn box_ring(grid: &Grid, [left, top]: [u32; 2], [right, bottom]: [u32; 2]) -> Vec<Point> {
+    let mut corners = [(left, top), (right, top), (right, bottom), (left, bottom)];
+    if is_mirrored(grid) {
+        corners[1..].reverse();
+    }
+    corners.map(|(column, row)| grid.corner(column, row)).to_vec()
+}
+
+/// Writes beside a PNG file its world file, and its reference system if there is text for it.
+///
+/// A picture in no file, as on standard output, has nothing beside it.
+pub fn write_beside(picture: Option<&Path>, grid: &Grid, crs: Option<&Crs>) -> Result<(), Failure> {
+    let is_file = |path: &&Path| fs::metadata(path).is_ok_and(|found| found.is_file());
+    let Some(picture) = picture.filter(is_file) else { return Ok(()) };
+    let write = |extension: &str, text: &str| {
+        Output::beside(&picture.with_extension(extension))?.whole(text.as_bytes())
+    };
+    write("pgw", &png::world_file(grid))?;
+    match crs.and_then(Crs::first_wkt) {
+        Some(wkt) => write("prj", &wkt),
+        None => Ok(()),
+    }
+}
