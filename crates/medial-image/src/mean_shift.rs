@@ -246,7 +246,9 @@ mod tests {
         let field = halves(30.0);
         let filter = Filter { threads: NonZeroUsize::new(3).unwrap(), ..Filter::default() };
         let n_rows = AtomicU32::new(0);
-        let count = || drop(n_rows.fetch_add(1, Ordering::Relaxed));
+        let count = || {
+            n_rows.fetch_add(1, Ordering::Relaxed);
+        };
         let found = mean_shift_with(&field, &filter, &count);
         assert_eq!(found, mean_shift(&field, &Filter::default()));
         assert_eq!(n_rows.into_inner(), 30);

@@ -153,7 +153,7 @@ mod tests {
     fn pixels_that_meet_at_a_corner_are_polygons_of_their_own() {
         let found = polygons(&[0, 3], &Grid::of_image(2, 2));
         let square = |x: f64, y: f64| {
-            let corners = [[x, y], [x, y - 1.0], [x + 1.0, y - 1.0], [x + 1.0, y]];
+            let corners = [[x, y], [x + 1.0, y], [x + 1.0, y - 1.0], [x, y - 1.0]];
             vec![corners.map(|[x, y]| Point::new(x, y)).to_vec()]
         };
         assert_eq!(found, [square(0.0, 0.0), square(1.0, -1.0)]);

@@ -120,9 +120,8 @@ impl Overlay {
         let frame = self.frame(options);
         let [columns, rows] = [frame.size.x, frame.size.y].map(|side| (scale * side).ceil() as u32);
         let origin = frame.unmap(Point::new(0.0, 0.0));
-        let next = frame.unmap(Point::new(1.0 / scale, 1.0 / scale));
-        let step = next - origin;
-        Grid { origin, cell: [step.x, step.y], columns, rows }
+        let step = 1.0 / frame.length(scale);
+        Grid { origin, cell: [step, -step], columns, rows }
     }
 
     /// For pixels of the drawing, `scale` of which are one of the frame, the size of the drawing and the colour of each
