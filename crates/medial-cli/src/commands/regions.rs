@@ -47,7 +47,10 @@ pub fn parted(
     let common = run.common;
     let input = timed(&mut run.stages.read, || Input::read(path))?;
     let colours = timed(&mut run.stages.read, || colours(args, common.from, path, &input))?;
-    let image::Colours { grid, crs, values, are_bands } = colours;
+    let image::Colours { grid, crs, values, are_bands, warnings } = colours;
+    for warning in warnings.iter().filter(|_| !common.quiet) {
+        crate::progress::line(&format!("warning: {}: {warning}", input.name));
+    }
     let kept = if keeps_colours { values.clone() } else { Vec::new() };
     // Limits are in units of the first band.
     let is_cut = are_bands && args.method == SegmentMethod::Threshold;

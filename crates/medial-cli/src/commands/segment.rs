@@ -40,7 +40,7 @@ pub fn run(args: &'static SegmentArgs) -> Result<Status, Failure> {
     let grid = *labels.grid();
     if let Some(output) = numbers {
         let numbers: Vec<u32> = labels.labels().iter().map(|label| label.wrapping_add(1)).collect();
-        let bytes = image::write_labels(grid.columns, grid.rows, &numbers);
+        let bytes = image::write_labels(grid.columns, grid.rows, &numbers, input.bytes());
         timed(&mut run.stages.write, || output.whole(&bytes))?;
     }
     if is_picture {
@@ -81,7 +81,9 @@ pub fn run(args: &'static SegmentArgs) -> Result<Status, Failure> {
                 polygons.len().into(),
                 (n_rings - polygons.len()).into(),
             ];
-            values.extend(object.whole.mean.map(|mean| Value::from(f64::from(mean))));
+            // Sums of bands are rounded, and may leave their range with the last bit.
+            let within = |mean: f32| if are_bands { mean.clamp(0.0, 100.0) } else { mean };
+            values.extend(object.whole.mean.map(|mean| Value::from(f64::from(within(mean)))));
             values.push(color(object.whole.mean, are_bands));
             let record = Record { values, shape: Shape::Polygons(polygons) };
             Ok(timed(&mut stages.write, || {

@@ -32,7 +32,16 @@ pub(super) fn open(bytes: &[u8]) -> Result<Box<dyn Image + '_>, Error> {
     decoder.set_options(options.jpeg_set_out_colorspace(space));
     let (columns, rows) = (u32::from(info.width), u32::from(info.height));
     let n_bands = if is_grey { 1 } else { 3 };
-    let header = Header { columns, rows, place: None, n_bands, is_colour: true };
+    let header = Header {
+        columns,
+        rows,
+        place: None,
+        n_bands,
+        alpha: None,
+        is_colour: true,
+        is_wide: false,
+        warnings: Vec::new(),
+    };
     Ok(Box::new(Jpeg { decoder, header }))
 }
 
@@ -53,7 +62,7 @@ impl Image for Jpeg<'_> {
             0,
             match wanted {
                 Wanted::Colour => coloured(&numbers(), each, each, false, 255.0),
-                Wanted::Bands(bands) => banded(&numbers(), each, bands),
+                Wanted::Bands(bands) => banded(&numbers(), each, bands, false, 255.0),
                 Wanted::Value if each == 1 => Values::Bytes(samples),
                 Wanted::Value => flattened(&samples, each, each, None),
             },

@@ -56,10 +56,16 @@ struct Header {
     columns: u32,
     rows: u32,
     place: Option<Place>,
-    /// Samples of a pixel, but for transparency.
+    /// Samples of a pixel, but for transparency behind them.
     n_bands: usize,
+    /// That of them, from 0, which says how opaque a pixel is, wherever it is.
+    alpha: Option<usize>,
     /// Whether these are a colour, or grey.
     is_colour: bool,
+    /// Whether values go up to 65,535.
+    is_wide: bool,
+    /// What the image says that is not used.
+    warnings: Vec<String>,
 }
 
 impl Header {
@@ -249,6 +255,8 @@ pub struct Colours {
     pub values: Vec<[f32; 3]>,
     /// Whether they are bands.
     pub are_bands: bool,
+    /// What the image says that is not used, or what its values make doubtful.
+    pub warnings: Vec<String>,
 }
 
 /// The colours of an image, or some of its bands, by their numbers from 1; an image whose bands are no colours
@@ -258,7 +266,8 @@ pub struct Colours {
 /// If the bytes are no such image, are damaged, the image is too large or has no such band.
 pub fn read_colours(format: Format, bytes: &[u8], bands: &[usize]) -> Result<Colours, Error> {
     let image = open(format, bytes)?;
-    let &Header { columns, rows, n_bands, is_colour, .. } = image.header();
+    let &Header { columns, rows, n_bands, alpha, is_colour, is_wide, .. } = image.header();
+    let mut warnings = image.header().warnings.clone();
     let refused = |why: String| Err(Error::File { why });
     if let Some(band) = bands.iter().find(|&&band| band == 0 || band > n_bands) {
         return refused(format!("the image has no band {band}; they go from 1 to {n_bands}"));
@@ -270,7 +279,7 @@ pub fn read_colours(format: Format, bytes: &[u8], bands: &[usize]) -> Result<Col
         ));
     }
     let chosen: Vec<usize> = match bands {
-        [] => (0..n_bands.min(3)).collect(),
+        [] => (0..n_bands).filter(|&band| alpha != Some(band)).take(3).collect(),
         bands => bands.iter().map(|band| band - 1).collect(),
     };
     let are_bands = !bands.is_empty() || !is_colour;
@@ -288,7 +297,24 @@ pub fn read_colours(format: Format, bytes: &[u8], bands: &[usize]) -> Result<Col
         let n = values.len();
         return refused(format!("the image has {n} values for {columns} by {rows} pixels"));
     }
-    Ok(Colours { grid, crs, values, are_bands })
+    if is_wide && !are_bands {
+        warnings.extend(darkness(&values, n_bands));
+    }
+    Ok(Colours { grid, crs, values, are_bands, warnings })
+}
+
+/// What to do about colours of 16 bits that are all nearly black, as 10 or 12 bits are that were not stretched.
+fn darkness(values: &[[f32; 3]], n_bands: usize) -> Option<String> {
+    const DARK: f32 = 4096.0 / 65_535.0;
+    let greatest = values.iter().flatten().copied().fold(0.0, f32::max);
+    let bands = if n_bands < 3 { "1" } else { "1,2,3" };
+    (0.0 < greatest && greatest < DARK).then(|| {
+        format!(
+            "the greatest of its values is {:.0} of 65535, so all of it is nearly black; --bands {bands} takes \
+             the values by their own range",
+            65_535.0 * greatest
+        )
+    })
 }
 
 /// Reads an image as one feature, whose polygons are the outline of its mask, unless masks are to come alone.
@@ -306,6 +332,7 @@ pub fn read<'a>(format: Format, bytes: &[u8], options: &ReadOptions) -> Result<L
     };
     let mut layer = Layer::new(std::iter::once(Ok(feature)));
     (layer.crs, layer.len) = (crs, Some(1));
+    layer.warnings.clone_from(&open(format, bytes)?.header().warnings);
     Ok(layer)
 }
 
@@ -346,9 +373,12 @@ fn coloured(
     Values::Triples(samples.chunks_exact(each).map(colour).collect())
 }
 
-/// Some samples of each pixel.
-fn banded(samples: &[f32], each: usize, bands: &[usize]) -> Values {
+/// Some samples of each pixel; the last one may say how opaque it is, up to a greatest value.
+fn banded(samples: &[f32], each: usize, bands: &[usize], has_alpha: bool, greatest: f32) -> Values {
     let triple = |pixel: &[f32]| {
+        if has_alpha && pixel[each - 1] < 0.5 * greatest {
+            return [f32::NAN; 3];
+        }
         [0, 1, 2].map(|k| bands.get(k).and_then(|&band| pixel.get(band)).copied().unwrap_or(0.0))
     };
     Values::Triples(samples.chunks_exact(each).map(triple).collect())

@@ -26,9 +26,18 @@ pub(super) fn open(bytes: &[u8]) -> Result<Box<dyn Image + '_>, Error> {
         let why = format!("{columns} by {rows} pixels are too many; cut the image into tiles");
         return Err(Error::File { why });
     }
-    let (each, _, has_alpha) = samples_of(reader.output_color_type().0);
-    let n_bands = each - usize::from(has_alpha);
-    let header = Header { columns, rows, place: None, n_bands, is_colour: true };
+    let (color, depth) = reader.output_color_type();
+    let (each, _, has_alpha) = samples_of(color);
+    let header = Header {
+        columns,
+        rows,
+        place: None,
+        n_bands: each - usize::from(has_alpha),
+        alpha: None,
+        is_colour: true,
+        is_wide: depth == BitDepth::Sixteen,
+        warnings: Vec::new(),
+    };
     Ok(Box::new(Png { reader, header }))
 }
 
@@ -89,7 +98,7 @@ fn values(samples: Vec<u8>, (color, depth): (ColorType, BitDepth), wanted: Wante
     let greatest = if is_wide { 65_535.0 } else { 255.0 };
     match wanted {
         Wanted::Colour => coloured(&numbers(), each, colours, has_alpha, greatest),
-        Wanted::Bands(bands) => banded(&numbers(), each, bands),
+        Wanted::Bands(bands) => banded(&numbers(), each, bands, has_alpha, greatest),
         Wanted::Value if is_wide && each == 1 => Values::Words(words()),
         Wanted::Value if is_wide => {
             flattened(&words(), each, colours, has_alpha.then_some(65_535.0))

@@ -1,9 +1,10 @@
 //! Masks, colours and labels as images.
 
+use super::tiff::{Georeference, georeference};
+use ::tiff::encoder::{Compression as TiffCompression, TiffEncoder, colortype};
 use medial::raster::Mask;
 use png::{BitDepth, ColorType, Compression, DeflateCompression, Encoder, Filter};
 use std::io::Cursor;
-use tiff::encoder::{Compression as TiffCompression, TiffEncoder, colortype};
 
 /// Filters of rows that are tried: which is best depends on the image.
 const FILTERS: [Filter; 3] = [Filter::NoFilter, Filter::Up, Filter::Adaptive];
@@ -81,19 +82,30 @@ pub fn write_colours(columns: u32, rows: u32, colours: &[[f32; 3]]) -> Vec<u8> {
     bytes
 }
 
-/// Numbers, row by row, as a TIFF image of 32 bits a pixel.
+/// Numbers, row by row, as a TIFF image of 32 bits a pixel, which lies where another image of these pixels says
+/// that it does: `like` is its file, of any format; an empty one says nothing.
 ///
 /// # Panics
 /// If there are not so many, or none.
 #[must_use]
-pub fn write_labels(columns: u32, rows: u32, labels: &[u32]) -> Vec<u8> {
+pub fn write_labels(columns: u32, rows: u32, labels: &[u32], like: &[u8]) -> Vec<u8> {
     assert_eq!(labels.len() as u64, u64::from(columns) * u64::from(rows), "a label for each pixel");
     let mut bytes = Cursor::new(Vec::new());
     // Writing to memory does not fail.
     let _ = TiffEncoder::new(&mut bytes).and_then(|encoder| {
-        encoder
-            .with_compression(TiffCompression::Lzw)
-            .write_image::<colortype::Gray32>(columns, rows, labels)
+        let mut encoder = encoder.with_compression(TiffCompression::Lzw);
+        let mut image = encoder.new_image::<colortype::Gray32>(columns, rows)?;
+        let Georeference { doubles, keys, text } = georeference(like);
+        for (tag, numbers) in &doubles {
+            image.encoder().write_tag(*tag, &numbers[..])?;
+        }
+        if let Some((tag, keys)) = &keys {
+            image.encoder().write_tag(*tag, &keys[..])?;
+        }
+        if let Some((tag, text)) = &text {
+            image.encoder().write_tag(*tag, text.trim_end_matches('\0'))?;
+        }
+        image.write_data(labels)
     });
     bytes.into_inner()
 }
