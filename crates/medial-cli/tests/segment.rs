@@ -114,3 +114,34 @@ fn wrong_words_and_files_are_told() {
     assert_eq!(run.status, Some(1));
     assert!(run.errors.starts_with("error: ") && run.errors.lines().count() == 1, "{}", run.errors);
 }
+
+#[test]
+fn bands_of_what_is_transparent_are_in_no_region() {
+    let folder = tempfile::tempdir().unwrap();
+    let picture = picture(folder.path());
+    let run = medial(&["segment", picture.to_str().unwrap(), "--bands", "1"]);
+    assert_eq!(run.status, Some(0), "{}", run.errors);
+    let found = features(run.text());
+    let pixels: u64 = found.iter().map(|f| f["properties"]["pixels"].as_u64().unwrap()).sum();
+    assert_eq!(pixels, 39 * 30);
+    let means = found.iter().map(|f| f["properties"]["mean_1"].as_f64().unwrap());
+    let greatest = means.fold(0.0, f64::max);
+    assert!(99.0 < greatest && greatest <= 100.0, "{greatest}");
+}
+
+#[test]
+fn values_of_sixteen_bits_that_are_nearly_black_are_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("dark.png");
+    let mut encoder = png::Encoder::new(fs::File::create(&path).unwrap(), 2, 1);
+    encoder.set_color(png::ColorType::Grayscale);
+    encoder.set_depth(png::BitDepth::Sixteen);
+    encoder.write_header().unwrap().write_image_data(&[0, 0, 15, 255]).unwrap();
+    let words = ["segment", path.to_str().unwrap(), "--method", "threshold", "--limits", "1"];
+    let run = medial(&words);
+    assert_eq!(run.status, Some(0), "{}", run.errors);
+    assert!(run.errors.contains("--bands 1 takes"), "{}", run.errors);
+    let run = medial(&[&words[..], &["--quiet"]].concat());
+    assert_eq!(run.status, Some(0), "{}", run.errors);
+    assert!(!run.errors.contains("warning"), "{}", run.errors);
+}
