@@ -37,7 +37,7 @@ Processor: {processor}.
 `feature_space` is the analysis of the colours of the whole image [CM97] with its class *undersegmentation*, *over* with *oversegmentation*; `mean_shift` that of place and colour together [CM02] with its defaults, 7 pixels, 6.5 units, regions of 20 pixels.
 *felzenszwalb* (scale 100, sigma 0.5, regions of 50 pixels), *quickshift* (kernel 3, distance 6) and *SLIC* (400 regions) are those of scikit-image; *OpenCV mean shift* is `pyrMeanShiftFiltering` (7, 6.5, one level), which gives no regions: each connected set of pixels of one colour is counted as one.
 
-- *ns a pixel*: one thread, without reading and writing, the least of {rounds} rounds by turns.
+- *ns a pixel*: one thread, without reading and writing, the least of {rounds} by turns.
 - *explained*: the share of the variance of the colours that the mean colours of the regions have.
 - *boundary*: the share of pixels that differ from the one to the right or below.
 - The last columns tell how well boundaries agree: the harmonic mean of the shares of either boundary that is at most 2 pixels from the other one.
