@@ -149,14 +149,11 @@ fn grouped(axis: &MedialAxis, mut rings: Vec<Ring>) -> Vec<Vec<Vec<Point>>> {
             trees.join(left, right);
         }
     }
-    // Which outer ring, and how many, each set has.
     let roots: Vec<u32> = (0..rings.len() as u32).map(|ring| trees.root(ring)).collect();
-    let is_given = rings.chunk_by(|a, b| a.name.0 == b.name.0).try_fold(0, |start, group| {
-        let is_whole = group[0].is_outer && !group[1..].iter().any(|ring| ring.is_outer);
-        let end = start + group.len();
-        (is_whole && roots[start..end].iter().all(|root| *root == roots[start])).then_some(end)
-    });
-    let key = |k: usize| if is_given.is_some() { rings[k].name.0 } else { roots[k] };
+    // Of each polygon the first ring is the outer one, and the only one, and the others belong to it.
+    let is_given = (0..rings.len())
+        .all(|k| rings[k].is_outer == is_first(k) && (is_first(k) || roots[k] == roots[k - 1]));
+    let key = |k: usize| if is_given { rings[k].name.0 } else { roots[k] };
     let mut place = BTreeMap::new();
     let mut polygons: Vec<Vec<Vec<Point>>> = Vec::new();
     let keys: Vec<u32> = (0..rings.len()).map(key).collect();
@@ -167,7 +164,7 @@ fn grouped(axis: &MedialAxis, mut rings: Vec<Ring>) -> Vec<Vec<Vec<Point>>> {
         }
         // The outer ring comes first.
         let rings = &mut polygons[polygon];
-        let at = if ring.is_outer && is_given.is_none() { 0 } else { rings.len() };
+        let at = if ring.is_outer { 0 } else { rings.len() };
         rings.insert(at, std::mem::take(&mut ring.corners));
     }
     polygons

@@ -21,14 +21,14 @@ mod tracing;
 mod winding;
 
 use std::cmp::Ordering;
-use std::collections::{BTreeMap, HashSet, VecDeque};
+use std::collections::{BTreeMap, HashSet};
 
 use super::origins::{Origins, Source};
 use super::reduce::{open_len, reduce};
 use super::{
     CornerOrigin, Domain, DomainError, Entry, FillRule, Options, Origin, Place, Repair, Report,
 };
-use crate::geom::{Point, order_key, orient2d};
+use crate::geom::{Point, order_key};
 use noding::{Noded, Strand};
 use tracing::Directed;
 use winding::Piece;
@@ -157,7 +157,14 @@ impl Edges {
         let mut edges = Self::default();
         let mut known = HashSet::new();
         for (polygon, rings) in (0..).zip(polygons) {
-            let forms: Vec<_> = rings.iter().map(|ring| form(ring)).collect();
+            let at = |number: u32| Place { polygon, ring: number, index: 0, lone: false };
+            let reduced = (0..).zip(rings).map(|(number, ring)| reduce(ring, at(number)));
+            let reduced: Vec<_> = reduced.collect();
+            let forms = rings.iter().zip(&reduced).map(|(ring, reduced)| match reduced {
+                Ok(reduced) => form(ring, &reduced.kept),
+                Err(_) => Vec::new(),
+            });
+            let forms: Vec<_> = forms.collect();
             if !dissolve && polygons.len() > 1 {
                 let mut all = forms.clone();
                 all.sort_unstable();
@@ -167,15 +174,15 @@ impl Edges {
                 }
             }
             let mut of_polygon = HashSet::new();
-            for (number, (ring, form)) in rings.iter().zip(forms).enumerate() {
-                let number = number as u32;
+            for (number, ((ring, form), reduced)) in (0..).zip(rings.iter().zip(forms).zip(reduced))
+            {
                 if !form.is_empty() && !of_polygon.insert(form) {
                     edges.entries.push(Entry::of(Repair::DuplicateRing, polygon, number));
                     continue;
                 }
-                let at = Place { polygon, ring: number, index: 0, lone: false };
-                match reduce(ring, at) {
+                match reduced {
                     Ok(reduced) => {
+                        let at = at(number);
                         edges.note(Repair::RepeatedPoint, at, reduced.repeated);
                         edges.note(Repair::StraightCorner, at, reduced.straight);
                         edges.note(Repair::Spike, at, reduced.spikes);
@@ -212,47 +219,17 @@ impl Edges {
     }
 }
 
-/// The corners of a ring in an order that is the same for a ring that starts elsewhere, runs the other way, or
-/// has more vertices on its edges or spikes; empty if it encloses nothing.
-fn form(ring: &[Point]) -> Vec<(i64, i64)> {
-    let corners = corners(&ring[..open_len(ring)]);
-    if corners.len() < 3 {
-        return Vec::new();
-    }
-    let key = |p: &Point| (order_key(p.x), order_key(p.y));
-    let mut there: Vec<_> = corners.iter().map(key).collect();
+/// The corners that are kept of a ring, in an order that is the same for a ring that starts elsewhere or runs the
+/// other way.
+fn form(ring: &[Point], kept: &[u32]) -> Vec<(i64, i64)> {
+    let key = |&k: &u32| (order_key(ring[k as usize].x), order_key(ring[k as usize].y));
+    let mut there: Vec<_> = kept.iter().map(key).collect();
     let mut back: Vec<_> = there.iter().rev().copied().collect();
     for keys in [&mut there, &mut back] {
         let start = least_rotation(keys);
         keys.rotate_left(start);
     }
     there.min(back)
-}
-
-/// The vertices of a closed ring at which it turns.
-fn corners(ring: &[Point]) -> Vec<Point> {
-    let is_none = |a: Point, b: Point, c: Point| a == b || b == c || orient2d(a, b, c) == 0.0;
-    let mut kept: VecDeque<Point> = VecDeque::with_capacity(ring.len());
-    for &vertex in ring {
-        while let [.., a, b] = *kept.make_contiguous()
-            && is_none(a, b, vertex)
-        {
-            kept.pop_back();
-        }
-        kept.push_back(vertex);
-    }
-    // Around the vertex where it starts.
-    while kept.len() > 2 {
-        let last = kept.len() - 1;
-        if is_none(kept[last - 1], kept[last], kept[0]) {
-            kept.pop_back();
-        } else if is_none(kept[last], kept[0], kept[1]) {
-            kept.pop_front();
-        } else {
-            break;
-        }
-    }
-    kept.into()
 }
 
 /// Where the rotation of a cyclic list starts that comes first, by comparing two starts at a time: O(n).
