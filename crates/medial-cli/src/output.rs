@@ -1,9 +1,10 @@
 use crate::failure::{Failure, plain};
 use crate::interrupt;
+use crate::parallel::lock;
 use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::sync::Mutex;
 use tempfile::NamedTempFile;
 
 /// Bytes gathered before they are handed to the system.
@@ -27,17 +28,13 @@ static TAKEN: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 static INPUTS: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 static SIDE_FILES: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 
-fn locked(list: &Mutex<Vec<PathBuf>>) -> MutexGuard<'_, Vec<PathBuf>> {
-    list.lock().unwrap_or_else(PoisonError::into_inner)
-}
-
 /// Takes note of an input; fails if a report or a table of numbers would take its place.
 pub fn reads(path: &Path) -> Result<(), Failure> {
     let Ok(place) = fs::canonicalize(path) else { return Ok(()) };
-    if locked(&SIDE_FILES).contains(&place) {
+    if lock(&SIDE_FILES).contains(&place) {
         return Err(is_input(path));
     }
-    locked(&INPUTS).push(place);
+    lock(&INPUTS).push(place);
     Ok(())
 }
 
@@ -55,7 +52,7 @@ fn take(folder: &Path, path: &Path, name: &str) -> Result<(), Failure> {
     let is_shapefile = place.extension().is_some_and(|e| e.eq_ignore_ascii_case("shp"));
     let beside = BESIDE.iter().filter(|_| is_shapefile).map(|e| place.with_extension(e));
     let places: Vec<PathBuf> = std::iter::once(place.clone()).chain(beside).collect();
-    let mut taken = locked(&TAKEN);
+    let mut taken = lock(&TAKEN);
     if places.iter().any(|place| taken.contains(place)) {
         let why = format!("{name} is named for two outputs; give each a file of its own");
         return Err(Failure::Usage(why));
@@ -111,8 +108,8 @@ impl Output {
     /// A file beside the results, which is not to take the place of an input.
     pub fn beside(path: &Path) -> Result<Self, Failure> {
         if let Ok(place) = fs::canonicalize(path) {
-            locked(&SIDE_FILES).push(place.clone());
-            if locked(&INPUTS).contains(&place) {
+            lock(&SIDE_FILES).push(place.clone());
+            if lock(&INPUTS).contains(&place) {
                 return Err(is_input(path));
             }
         }

@@ -1,7 +1,7 @@
 //! What became of the objects of an image in another one.
 
 use super::features::Run;
-use super::image::{Drawn, FORMATS, lines, picture};
+use super::image::{Drawn, FORMATS, Painting, lines};
 use super::place::{box_ring, is_georeferenced};
 use super::records::{Found, Plan};
 use super::regions::{self, Parted, color};
@@ -98,37 +98,23 @@ pub fn run(
     let features: Vec<Feature> = (0..records.len()).map(feature).collect();
     let mut layer = Layer::of_features(before.crs.clone(), features.into_iter());
     layer.warnings.extend(uncompared(&changes, described.objects, &after));
-    let mut drawn = None;
-    let status = plan.run_on(
-        run,
-        &before.input.name,
-        layer,
-        move |feature, _, stages, _| {
-            let records = &records[feature.index];
-            Ok(if is_picture {
-                let drawn =
-                    |(layer, record): &(ImageLayer, Record)| (*layer, lines(record.shape.clone()));
-                Found::Part(records.iter().map(drawn).collect::<Vec<Drawn>>())
-            } else {
-                let records: Vec<Record> =
-                    records.iter().map(|(_, record)| record.clone()).collect();
-                timed(&mut stages.write, || {
-                    let mut bytes = Vec::new();
-                    record::write(&mut bytes, format, feature, None, COLUMNS, &records);
-                    Found::Bytes(bytes)
-                })
-            })
-        },
-        |parts, stages| {
-            let title = title("Changes", &args.input);
+    let title = title("Changes", &args.input);
+    let painting = Painting { args, format, title, overlay, layers };
+    painting.run(&plan, run, &before.input.name, layer, move |feature, _, stages, _| {
+        let records = &records[feature.index];
+        Ok(if is_picture {
+            let drawn =
+                |(layer, record): &(ImageLayer, Record)| (*layer, lines(record.shape.clone()));
+            Found::Part(records.iter().map(drawn).collect::<Vec<Drawn>>())
+        } else {
+            let records: Vec<Record> = records.iter().map(|(_, record)| record.clone()).collect();
             timed(&mut stages.write, || {
-                let picture = picture(args, format, title, overlay, &layers, parts)?;
-                Ok(drawn.insert(picture).take_bytes())
+                let mut bytes = Vec::new();
+                record::write(&mut bytes, format, feature, None, COLUMNS, &records);
+                Found::Bytes(bytes)
             })
-        },
-    )?;
-    drawn.map_or(Ok(()), |picture| picture.tell_place(args))?;
-    Ok(status)
+        })
+    })
 }
 
 /// Fails unless two images are of one kind and, as far as that is known, in one reference system.

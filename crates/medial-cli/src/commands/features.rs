@@ -6,7 +6,7 @@ use crate::guard::guarded;
 use crate::input::{Documents, Opened, Polygons};
 use crate::metric::Metric;
 use crate::output::Output;
-use crate::parallel::{Limit, kept, ordered};
+use crate::parallel::{Limit, kept, lock, ordered};
 use crate::progress::Progress;
 use crate::report::{self, Entry, FeatureReport, Report};
 use crate::timings::{self, Stages, timed};
@@ -18,7 +18,7 @@ use medial_io::{Error, Feature, FeatureError, Json, Layer, Part, ReadOptions, ge
 use std::num::NonZeroUsize;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
 /// A run of a command over the features of an input.
@@ -132,7 +132,7 @@ impl Run {
         // Bytes of earlier batches, for their memory: it grows once and stays warm.
         let spare = Arc::new(Mutex::new(Vec::new()));
         let taken = Arc::clone(&spare);
-        let parts = timed(&mut locked(&find), || {
+        let parts = timed(&mut lock(&find), || {
             told_of_degrees(layer, input, common.metric, self.knows_metric, &progress)
         });
         let limit = common.limit().map(|limit| Limit {
@@ -145,7 +145,7 @@ impl Run {
             Batches { parts, find: Arc::clone(&find), most },
             at_once,
             move |batch: Vec<Part<'static>>| {
-                let mut bytes: Vec<u8> = locked(&taken).pop().unwrap_or_default();
+                let mut bytes: Vec<u8> = lock(&taken).pop().unwrap_or_default();
                 let process = |part| process(part, common, &mut bytes, &work);
                 (batch.into_iter().map(process).collect::<Vec<_>>(), bytes)
             },
@@ -169,7 +169,7 @@ impl Run {
                 let written = write(&bytes[..end]);
                 if bytes.capacity() <= SPARE_BYTES {
                     bytes.clear();
-                    locked(&spare).push(bytes);
+                    lock(&spare).push(bytes);
                 }
                 match written {
                     Err(failure) => ControlFlow::Break(Some(failure)),
@@ -178,7 +178,7 @@ impl Run {
                 }
             },
         );
-        self.stages.read += *locked(&find);
+        self.stages.read += *lock(&find);
         progress.finish();
         if let Some(output) = self.report.take() {
             output.whole(report.text().as_bytes())?;
@@ -263,10 +263,6 @@ const SPARE_BYTES: usize = 1 << 20;
 /// What a feature may take beyond its limit, for whatever looks at the clock to notice by itself.
 const GRACE: Duration = Duration::from_millis(500);
 
-fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
-    mutex.lock().unwrap_or_else(PoisonError::into_inner)
-}
-
 /// The features of a layer in batches, with the time it took to find them.
 struct Batches<I> {
     parts: I,
@@ -288,7 +284,7 @@ impl<'p, I: Iterator<Item = Part<'p>>> Iterator for Batches<I> {
             bytes += part.size();
             batch.push(part);
         }
-        *locked(&self.find) += start.elapsed();
+        *lock(&self.find) += start.elapsed();
         (!batch.is_empty()).then_some(batch)
     }
 }

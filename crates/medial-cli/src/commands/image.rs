@@ -97,30 +97,57 @@ pub fn run(args: &'static ImageArgs) -> Result<Status, Failure> {
         is_simplified: args.simplify.is_some(),
         objects,
     };
-    let mut drawn = None;
-    let status = plan.run_on(
-        run,
-        &input.name,
-        layer,
-        move |feature, domain, stages, options| {
-            let records = drafter.records(feature, domain, stages, options)?;
-            Ok(if is_picture {
-                let drawn = |(layer, record): (ImageLayer, Record)| (layer, lines(record.shape));
-                Found::Part(records.into_iter().map(drawn).collect::<Vec<Drawn>>())
-            } else {
-                Found::Records(records.into_iter().map(|(_, record)| record).collect())
-            })
-        },
-        |parts: Vec<Vec<Drawn>>, stages| {
-            let title = title("Regions", &args.input);
+    let title = title("Regions", &args.input);
+    let painting = Painting { args, format, title, overlay, layers };
+    painting.run(&plan, run, &input.name, layer, move |feature, domain, stages, options| {
+        let records = drafter.records(feature, domain, stages, options)?;
+        Ok(if is_picture {
+            let drawn = |(layer, record): (ImageLayer, Record)| (layer, lines(record.shape));
+            Found::Part(records.into_iter().map(drawn).collect::<Vec<Drawn>>())
+        } else {
+            Found::Records(records.into_iter().map(|(_, record)| record).collect())
+        })
+    })
+}
+
+/// Layers that are painted over an image, once all features have told theirs.
+pub struct Painting {
+    pub args: &'static ImageArgs,
+    pub format: Format,
+    pub title: String,
+    pub overlay: Overlay,
+    pub layers: Vec<ImageLayer>,
+}
+
+impl Painting {
+    /// Runs a plan on a layer that comes from an input with this name, and paints what is no record.
+    pub fn run(
+        self,
+        plan: &Plan,
+        run: Run,
+        input: &str,
+        layer: Layer<'static>,
+        work: impl Fn(
+            &Feature,
+            &Domain,
+            &mut Stages,
+            &engine::Options<'_>,
+        ) -> Result<Found<Vec<Drawn>>, Entry>
+        + Send
+        + Sync
+        + 'static,
+    ) -> Result<Status, Failure> {
+        let Self { args, format, title, overlay, layers } = self;
+        let mut drawn = None;
+        let status = plan.run_on(run, input, layer, work, |parts, stages| {
             timed(&mut stages.write, || {
                 let picture = picture(args, format, title, overlay, &layers, parts)?;
                 Ok(drawn.insert(picture).take_bytes())
             })
-        },
-    )?;
-    drawn.map_or(Ok(()), |picture| picture.tell_place(args))?;
-    Ok(status)
+        })?;
+        drawn.map_or(Ok(()), |picture| picture.tell_place(args))?;
+        Ok(status)
+    }
 }
 
 /// The format of the output, if layers have it.
@@ -361,19 +388,19 @@ pub fn lines(shape: Shape) -> Vec<Vec<Point>> {
 }
 
 /// A picture, and where it lies.
-pub struct Picture {
+struct Picture {
     bytes: Vec<u8>,
     /// The pixels of PNG in the plane of a georeference, and its reference system.
     place: Option<(Grid, Option<Crs>)>,
 }
 
 impl Picture {
-    pub fn take_bytes(&mut self) -> Vec<u8> {
+    fn take_bytes(&mut self) -> Vec<u8> {
         std::mem::take(&mut self.bytes)
     }
 
     /// Writes beside the file that was drawn where it lies, if it cannot tell it itself.
-    pub fn tell_place(&self, args: &ImageArgs) -> Result<(), Failure> {
+    fn tell_place(&self, args: &ImageArgs) -> Result<(), Failure> {
         match &self.place {
             Some((grid, crs)) => write_beside(args.target.output.as_deref(), grid, crs.as_ref()),
             None => Ok(()),
@@ -382,7 +409,7 @@ impl Picture {
 }
 
 /// The picture of layers over the pixels of an image.
-pub fn picture(
+fn picture(
     args: &ImageArgs,
     format: Format,
     title: String,
