@@ -4,6 +4,7 @@ import json
 import math
 
 from . import BENCH
+from .page import table
 from .run import run, short
 
 # Seconds of processor time for one run.
@@ -124,10 +125,6 @@ def spacings(programs, words):
         share = 1 - line["outside_crust"] / line["samples"]
         yield [f"{line['spacing']:.6f}", str(line["samples"]), f"{share:.1%}",
                f"{line['distance']:.2e}", f"{line['missed']:.2e}"]
-
-
-def table(rows):
-    return "".join("| " + " | ".join(row) + " |\n" for row in rows)
 
 
 def read(text):

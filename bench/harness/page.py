@@ -135,6 +135,11 @@ def sections(text):
     return {title: part.rstrip() + "\n" for title, part in zip(pieces[1::2], pieces[2::2])}
 
 
+def table(rows):
+    """The lines of a table."""
+    return "".join("| " + " | ".join(row) + " |\n" for row in rows)
+
+
 def processor():
     """The processor that this is measured on."""
     model = platform.processor() or platform.machine()

@@ -3,6 +3,7 @@
 import json
 
 from . import BENCH
+from .page import table
 from .run import Unfinished, run, short
 
 # Seconds of processor time for one run.
@@ -10,8 +11,7 @@ LIMIT = 300
 
 # Pinned, so that the page can be drawn up again.
 PEERS = ["scikit-image==0.26.0", "opencv-contrib-python-headless==5.0.0.93", "imageio==2.38.1",
-         "tifffile==2026.3.3", "imagecodecs==2026.3.6",
-         "scipy==1.17.1"]
+         "tifffile==2026.3.3", "imagecodecs==2026.3.6", "scipy==1.17.1"]
 
 # Pictures of FOLDER/images.
 IMAGES = ["maps/nypl_insurance_atlas.png", "satellite/rmnp-rgb.tif", "satellite/Miriam.A2012270.2050.2km.jpg",
@@ -37,7 +37,7 @@ Processor: {processor}.
 `feature_space` is the analysis of the colours of the whole image [CM97] with its class *undersegmentation*, *over* with *oversegmentation*; `mean_shift` that of place and colour together [CM02] with its defaults, 7 pixels, 6.5 units, regions of 20 pixels.
 *felzenszwalb* (scale 100, sigma 0.5, regions of 50 pixels), *quickshift* (kernel 3, distance 6) and *SLIC* (400 regions) are those of scikit-image; *OpenCV mean shift* is `pyrMeanShiftFiltering` (7, 6.5, one level), which gives no regions: each connected set of pixels of one colour is counted as one.
 
-- *ns a pixel*: one thread, without reading and writing, the least of {rounds} by turns.
+- *ns a pixel*: one thread, without reading and writing, the least of {rounds} rounds by turns.
 - *explained*: the share of the variance of the colours that the mean colours of the regions have.
 - *boundary*: the share of pixels that differ from the one to the right or below.
 - The last columns tell how well boundaries agree: the harmonic mean of the shares of either boundary that is at most 2 pixels from the other one.
@@ -50,8 +50,7 @@ def page(program, python, folder, data, processor, rounds):
     text = HEAD.format(processor=processor, rounds=rounds)
     for image in IMAGES:
         text += f"## {image.rsplit('/', 1)[-1]}\n\n"
-        text += "".join("| " + " | ".join(row) + " |\n" for row in rows(program, python, folder, data / "images" / image, rounds))
-        text += "\n"
+        text += table(rows(program, python, folder, data / "images" / image, rounds)) + "\n"
     return text.rstrip() + "\n"
 
 
