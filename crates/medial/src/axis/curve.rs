@@ -199,6 +199,26 @@ impl Curve {
         }
     }
 
+    /// The coefficients of point and radius as polynomials in the parameter, from the constant ones on; `None`
+    /// between two corners.
+    pub(crate) fn polynomial(&self) -> Option<[(Point, f64); 3]> {
+        let chord = self.to - self.from;
+        match self.form {
+            Form::Linear => {
+                let slope = self.radius_to - self.radius_from;
+                Some([(self.from, self.radius_from), (chord, slope), (Point::default(), 0.0)])
+            }
+            Form::Parabola { d, x: [x1, x2], tangent, .. } => {
+                let span = x2 - x1;
+                let sag = span * span / (2.0 * d);
+                let bend = tangent.perp() * sag;
+                let radius = (x1 * x1 + d * d) / (2.0 * d);
+                Some([(self.from, radius), (chord - bend, x1 * span / d), (bend, sag)])
+            }
+            Form::Corners { .. } => None,
+        }
+    }
+
     /// The parameter strictly inside the curve where the radius is least: the apex of a parabola
     /// or the midpoint between two corners. `None` if the radius is monotone.
     #[must_use]

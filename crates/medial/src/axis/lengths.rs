@@ -66,6 +66,9 @@ struct Row {
 /// Parabolas side by side.
 const ROW: usize = 64;
 
+/// As many as instructions take at once, on any machine.
+const GROUP: usize = 8;
+
 impl Default for Row {
     fn default() -> Self {
         Self { len: 0, places: [0; ROW], d: [1.0; ROW], x: [[0.0; ROW]; 2] }
@@ -85,7 +88,8 @@ impl Row {
         let mut row = [0.0; ROW];
         // Whether it is the length: not where squares overflow or vanish, or where a series is too short.
         let mut is_it = [false; ROW];
-        for k in 0..ROW {
+        // Whole groups, of which the last one may hold old ones too.
+        for k in 0..len.next_multiple_of(GROUP) {
             let (d, x1, x2) = (d[k], x1[k], x2[k]);
             let squares = [x1 * x1 + d * d, x2 * x2 + d * d];
             let w = squares.map(f64::sqrt);

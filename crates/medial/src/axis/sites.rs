@@ -1,4 +1,5 @@
-//! The sites of an axis: a corner once, however many sites meet there, and a few numbers a site.
+//! The sites of an axis: a corner once, however many sites meet there, that where a ring starts twice, and a few
+//! numbers a site.
 
 use std::fmt;
 
@@ -25,7 +26,7 @@ impl From<&Site> for SiteShape {
 /// What keeps the sites: eight bytes each, and their points.
 ///
 /// A site along a walk starts where the one before it ends, so points are numbered as they come,
-/// and an edge mostly ends at the point after the one where it starts.
+/// and an edge ends at the point after the one where it starts.
 #[derive(Clone, Default)]
 pub(crate) struct SiteTable {
     points: Vec<Point>,
@@ -34,8 +35,6 @@ pub(crate) struct SiteTable {
     runs: Vec<Run>,
     /// The few sites that need more to be said, in their order.
     listed: Vec<Listed>,
-    /// First point of the walk that the next site may go on with.
-    walk: Option<u32>,
 }
 
 #[derive(Clone, Copy)]
@@ -60,7 +59,7 @@ struct Run {
     ring: u32,
 }
 
-/// A site that is a piece of an edge, or does not end at the next point.
+/// A site that is a piece of an edge, a corner with two ends, or an edge with one.
 #[derive(Clone, Copy)]
 struct Listed {
     site: u32,
@@ -69,14 +68,13 @@ struct Listed {
 }
 
 impl SiteTable {
-    /// An empty table with room for some sites, with so many points, of so many walks.
-    pub fn with_room(sites: usize, points: usize, walks: usize) -> Self {
+    /// An empty table with room for some sites, with so many corners, of so many walks.
+    pub fn with_room(sites: usize, corners: usize, walks: usize) -> Self {
         Self {
-            points: Vec::with_capacity(points),
+            points: Vec::with_capacity(corners + walks),
             records: Vec::with_capacity(sites),
             runs: Vec::with_capacity(walks),
-            listed: Vec::with_capacity(walks),
-            walk: None,
+            listed: Vec::new(),
         }
     }
 
@@ -104,23 +102,11 @@ impl SiteTable {
             return None;
         }
         let number = number as u32;
-        let (walk, start) = match (self.walk, self.points.last()) {
-            (Some(walk), Some(&last)) if same(last, site.a) => (walk, self.points.len() as u32 - 1),
-            _ => {
-                let start = self.add(site.a);
-                (start, start)
-            }
+        let start = match self.points.last() {
+            Some(&last) if same(last, site.a) => self.points.len() as u32 - 1,
+            _ => self.add(site.a),
         };
-        self.walk = Some(walk);
-        let end = if same(site.b, site.a) {
-            start
-        } else if same(site.b, self.points[walk as usize]) {
-            // Once around.
-            self.walk = None;
-            walk
-        } else {
-            self.add(site.b)
-        };
+        let end = if same(site.b, site.a) { start } else { self.add(site.b) };
         let (flag, usual) = match site.kind {
             SiteKind::Vertex => (VERTEX, start),
             SiteKind::Edge => (0, start + 1),
@@ -294,8 +280,8 @@ impl fmt::Debug for SiteTable {
 
 /// The sites of an axis, numbered from 0; a [`Site`] is put together when it is asked for.
 ///
-/// Coordinates are in units of the input. An axis keeps 8 bytes for each site and 16 for each
-/// corner, and a few for each ring. Asking for one site takes logarithmic time in the number of
+/// Coordinates are in units of the input. An axis keeps 8 bytes for each site, 16 for each
+/// corner and 28 for each ring. Asking for one site takes logarithmic time in the number of
 /// rings.
 #[derive(Clone, Copy)]
 pub struct Sites<'a>(pub(super) &'a SiteTable);
@@ -363,9 +349,9 @@ mod tests {
         let table = kept(&sites);
         assert!(Sites(&table).iter().eq(sites.iter().copied()));
         assert!(Sites(&table).iter().rev().eq(sites.iter().rev().copied()));
-        assert_eq!((Sites(&table).len(), table.points.len(), table.runs.len()), (9, 6, 2));
-        // The edge that closes each ring.
-        assert_eq!(table.listed.len(), 2);
+        // Where each ring starts it ends, too.
+        assert_eq!((Sites(&table).len(), table.points.len(), table.runs.len()), (9, 8, 2));
+        assert_eq!(table.listed.len(), 0);
     }
 
     #[test]

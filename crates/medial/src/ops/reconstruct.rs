@@ -136,7 +136,7 @@ fn grouped(axis: &MedialAxis, mut rings: Vec<Ring>) -> Vec<Vec<Vec<Point>>> {
     let mut trees = Trees::new(rings.len());
     let mut ring_of = Vec::with_capacity(axis.sites().len());
     let mut last = 0;
-    for site in axis.sites() {
+    for site in axis.sites().in_order() {
         let name = (site.polygon, site.ring);
         if rings.get(last).is_none_or(|ring| ring.name != name) {
             last = rings.partition_point(|ring| ring.name < name);
