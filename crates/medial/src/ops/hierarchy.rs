@@ -601,10 +601,8 @@ impl Limb<'_> {
             (None, Some(neck)) => (neck, end),
             (None, None) => (0.0, end),
         };
-        if measure == Measure::Excess
-            && let Some(place) = self.reached_from_corner(threshold, end)
-        {
-            return place;
+        if let Some([before, _]) = self.bracketed(measure, threshold, [low, high]) {
+            return before;
         }
         let at = |u: f64| low + (high - low) * u;
         // No more than the threshold is lost, unless that is reached at the very end.
@@ -621,30 +619,71 @@ impl Limb<'_> {
         last_below(crossing(missing))
     }
 
-    /// The same for the excess on a line out of a corner that is all there is behind, along which it grows in
-    /// proportion: the last place that shows to be below the threshold, by a few ulp of 1 at most.
-    fn reached_from_corner(&self, threshold: f64, end: f64) -> Option<f64> {
-        /// Steps back from where it would be without rounding, each twice as long as the one before.
-        const STEPS: u32 = 5;
-        let (first, last) = self.corners();
-        let [(from, r1), (to, r2)] = self.disks;
+    /// Two places between two others, a few ulp of 1 apart, of which the first one is below a threshold of the
+    /// excess or the relative excess and the second is not: by the closed form for the corner that is farthest.
+    ///
+    /// With that corner at the origin and `c` and `r` polynomials of degree two, `|c| = a + b r` is an equation
+    /// of degree two as well on lines, and for `b = 1` on parabolas, where higher terms cancel.
+    pub fn bracketed(
+        &self,
+        measure: Measure,
+        threshold: f64,
+        [low, high]: [f64; 2],
+    ) -> Option<[f64; 2]> {
+        /// Corners that are tried.
+        const TRIES: u32 = 3;
+        /// How far the two places are from the solution, in turn, for each ulp of the coordinates there.
+        const MARGINS: [f64; 2] = [1.0, 16.0];
+        let [start, slope, bend] = self.curve().polynomial()?;
         let is_line = self.left.is_edge() && self.right.is_edge();
-        if !(is_line && first == last && r1 == 0.0) {
-            return None;
-        }
-        let mut u = threshold / ((to - from).norm() - r2);
-        let mut step = 0.5 * f64::EPSILON;
-        for _ in 0..STEPS {
-            u -= step;
-            if !(0.0 < u && u < end - 2.0 * f64::EPSILON) {
+        let (more, times) = match measure {
+            Measure::Excess => (threshold, 1.0),
+            Measure::RelativeExcess if is_line => (0.0, 1.0 + threshold),
+            _ => return None,
+        };
+        let is_below = |u: f64| self.value(measure, u) < threshold;
+        let squared = times * times;
+        let mut far = self.far_corner(high);
+        for _ in 0..TRIES {
+            let from = start.0 - far;
+            let radius = more + times * start.1;
+            let constant = (from.norm() - radius) * (from.norm() + radius);
+            let linear = 2.0 * (from.dot(slope.0) - times * radius * slope.1);
+            let quadratic = slope.0.norm2() - squared * slope.1 * slope.1
+                + 2.0 * (from.dot(bend.0) - times * radius * bend.1);
+            // The root where it grows.
+            let root = (linear * linear - 4.0 * quadratic * constant).sqrt();
+            let u = if linear > 0.0 {
+                -2.0 * constant / (linear + root)
+            } else {
+                (root - linear) / (2.0 * quadratic)
+            };
+            if !(low < u && u < high) {
                 return None;
             }
-            if self.excess(u) < threshold {
-                return Some(u);
+            // The parameter changes by so much where the distance changes by an ulp of the coordinates.
+            let (size, distance) = (far.x.abs().max(far.y.abs()), more + times * self.radius(u));
+            let ulp = f64::EPSILON * (1.0 + 2.0 * distance * (size + distance) / root);
+            let around = MARGINS.map(|margin| [u - margin * ulp, u + margin * ulp]);
+            let inside = around.into_iter().take_while(|[a, b]| low < *a && *b < high);
+            for [before, after] in inside {
+                if is_below(before) && !is_below(after) {
+                    return Some([before, after]);
+                }
             }
-            step *= 2.0;
+            let next = self.far_corner(u);
+            if next == far {
+                return None;
+            }
+            far = next;
         }
         None
+    }
+
+    /// The farthest corner behind.
+    fn far_corner(&self, u: f64) -> Point {
+        self.farthest(self.centre(u));
+        self.hierarchy.ground.domain().edge(self.far.get().1).start
     }
 
     /// The excess at the start, from the corners behind all that ends there.

@@ -66,7 +66,8 @@ fn cut(part: &Part, limb: &Limb<'_>, threshold: f64, starts_low: bool) -> Option
         _ => return None,
     };
     let at = |u: f64| low + (high - low) * u;
-    let cut = at(crossing(|u| value(at(u)) - threshold)[1]);
+    let bracket = limb.bracketed(Measure::RelativeExcess, threshold, [low, high]);
+    let cut = bracket.map_or_else(|| at(crossing(|u| value(at(u)) - threshold)[1]), |[_, cut]| cut);
     (cut > 0.0).then(|| (cut, limb.value(Measure::Excess, cut)))
 }
 

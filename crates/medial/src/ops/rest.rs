@@ -100,6 +100,20 @@ impl<'a> Rest<'a> {
         self.error = self.error.max(other.error);
     }
 
+    /// The same, but all of some paths.
+    pub fn whole_where(&self, is_whole: impl Fn(u32) -> bool) -> Self {
+        let mut rest = Self { error: self.error, ..Self::of(self.axis) };
+        for &(path, part) in self.cut.iter().filter(|&&(path, _)| !is_whole(path)) {
+            *rest.part(path) = part;
+        }
+        rest
+    }
+
+    /// Whether more is left of a path than a root, if that.
+    pub fn is_longer_than_a_point(&self, path: u32) -> bool {
+        self.tips(path).is_none_or(|(_, tips)| tips.is_some())
+    }
+
     /// The axis of which this is left.
     pub fn axis(&self) -> &'a MedialAxis {
         self.axis

@@ -37,11 +37,12 @@ pub use polyline::{LineOptions, polylines};
 
 use super::hierarchy::{Hierarchy, HierarchyError};
 use super::measure::Measure;
-use super::rest::{Origin, Pruned};
+use super::rest::{Origin, Pruned, Rest};
 use crate::axis::MedialAxis;
 use crate::domain::Domain;
 use crate::geom::Point;
 use graph::{Graph, Way};
+use longest::HasCycles;
 
 /// What lines are asked for.
 #[derive(Clone, Debug, PartialEq)]
@@ -201,13 +202,35 @@ impl Hierarchy<'_> {
         // Mostly there is one line to be found in one forest.
         if options.route == Route::Longest
             && options.count == 1
-            && !rest.has_points(&self.fire.roots)
-            && let Ok(line) = longest::in_forest(&rest, |path| self.fire.lengths[path as usize])
+            && let Ok(line) = self.longest_in_forest(&rest)
         {
             let line = line.into_iter();
             return Ok(line.map(|line| extended(self.given, line, options)).collect());
         }
         best_lines(self, &rest.finish(&self.fire.roots, &lost), options)
+    }
+
+    /// The longest line through what is left of an axis without cycles.
+    fn longest_in_forest(&self, rest: &Rest<'_>) -> Result<Option<Centerline>, HasCycles> {
+        if !self.fire.is_all() {
+            return Err(HasCycles);
+        }
+        let length = |path: u32| self.fire.lengths[path as usize];
+        if rest.has_points(&self.fire.roots) {
+            longest::in_forest(&self.without_points(rest), length)
+        } else {
+            longest::in_forest(rest, length)
+        }
+    }
+
+    /// The same, but all of each tree of which a single point is left.
+    fn without_points<'r>(&self, rest: &Rest<'r>) -> Rest<'r> {
+        let (trees, n_trees) = self.fire.trees();
+        let mut is_left = vec![false; n_trees];
+        for (&tree, path) in trees.iter().zip(0..) {
+            is_left[tree as usize] |= rest.is_longer_than_a_point(path);
+        }
+        rest.whole_where(|path| !is_left[trees[path as usize] as usize])
     }
 }
 
