@@ -1,5 +1,6 @@
 """Times operations on axes, beside the engine that made them."""
 
+from .layers import groups, prepare
 from .run import Result, by_turns, run, short
 
 SHAPES = ["star", "koch", "maze", "rmaze", "comb", "holes", "lattice", "ngon"]
@@ -12,39 +13,55 @@ OPERATIONS = [
 # All of these but the first two in one run.
 TOGETHER = "together"
 
+# What heads the times of one input.
+TIMES = ["validation", "engine", *OPERATIONS, "sum", "all together",
+         "sum ÷ engine", "all together ÷ engine", "all together ÷ axis"]
+
 # The size to which time an edge is compared.
 BASE = 10_000
 
 
 def rows(commands, options, scratch):
-    """Yields the lines of the table as they are ready."""
-    ratios = ["sum ÷ engine", "all together ÷ engine", "all together ÷ axis", "sum ÷ at 1e4"]
-    head = ["validation", "engine", *OPERATIONS, "sum", "all together", *ratios]
-    yield ["shape", "edges", *head]
-    yield ["---"] + ["--:"] * (len(head) + 1)
+    """Yields the lines of the table of drawn shapes as they are ready."""
+    yield ["shape", "edges", *TIMES, "sum ÷ at 1e4"]
+    yield ["---"] + ["--:"] * (len(TIMES) + 2)
     for shape in [shape for shape in SHAPES if shape in options.shapes]:
         base = None
         for size in [size for size in options.sizes if size >= BASE]:
             path = scratch / "operations.txt"
             with open(path, "w", encoding="utf-8") as file:
                 run([*commands["medial"], "draw", shape, str(size)], options.limit, stdout=file)
-            names = [*OPERATIONS, TOGETHER]
-            turns = {name: ([*commands["medial"], "operation", name], path) for name in names}
-            turns["axis"] = ([*commands["medial"], "time"], path)
-            results = by_turns(turns, options.rounds, options.limit, options.budget)
-            if not all(isinstance(result, Result) for result in results.values()):
-                yield [shape, f"{size:,}"] + [str(result) for result in results.values()
-                                              if not isinstance(result, Result)]
+            edges, each, cells = times(commands, options, path)
+            if edges is None:
+                yield [shape, f"{size:,}", *cells]
                 continue
-            axis = results["axis"]
-            # The first two are parts of the others.
-            each = sum(results[name].second for name in OPERATIONS[2:])
-            together = results[TOGETHER].second
-            base = each / axis.edges if size == BASE else base
-            times = [axis.first, axis.second, *(results[name].second for name in OPERATIONS)]
-            cells = [short(time / axis.edges / 1e3) for time in [*times, each, together]]
-            below = [(each, axis.second), (together, axis.second), (together, axis.time)]
-            cells += [short(time / by, 2) for time, by in below]
-            grows = base and size > BASE
-            yield [shape, f"{axis.edges:,}", *cells,
-                   f"{each / axis.edges / base:.2f}" if grows else ""]
+            base = each if size == BASE else base
+            yield [shape, f"{edges:,}", *cells, f"{each / base:.2f}" if base and size > BASE else ""]
+
+
+def file_rows(commands, options, scratch):
+    """Yields the lines of the table of real files as they are ready."""
+    yield ["file", "features", "edges", *TIMES]
+    yield ["---"] + ["--:"] * (len(TIMES) + 2)
+    for name, files in groups(commands, options.data):
+        counts, _, path = prepare(commands, files, scratch)
+        edges, _, cells = times(commands, options, path)
+        yield [name, f"{counts[0]:,}", f"{edges:,}" if edges else "", *cells]
+
+
+def times(commands, options, path):
+    """The edges of the input in a file, the sum of all operations an edge, and the cells of its line."""
+    turns = {name: ([*commands["medial"], "operation", name], path) for name in [*OPERATIONS, TOGETHER]}
+    turns["axis"] = ([*commands["medial"], "time"], path)
+    results = by_turns(turns, options.rounds, options.limit, options.budget)
+    if not all(isinstance(result, Result) for result in results.values()):
+        return None, None, [str(r) for r in results.values() if not isinstance(r, Result)]
+    axis = results["axis"]
+    # The first two are parts of the others.
+    each = sum(results[name].second for name in OPERATIONS[2:])
+    together = results[TOGETHER].second
+    all_times = [axis.first, axis.second, *(results[name].second for name in OPERATIONS), each, together]
+    cells = [short(time / axis.edges / 1e3) for time in all_times]
+    below = [(each, axis.second), (together, axis.second), (together, axis.time)]
+    cells += [short(time / by, 2) for time, by in below]
+    return axis.edges, each / axis.edges, cells

@@ -65,6 +65,11 @@ The axis is *engine*, or *axis*: that and *validation*, as a user runs them.
 
 """
 
+FILE_OPERATIONS = """The same on whole layers, each feature a domain of its own, on the coordinates of the file.
+Many features are small: there each operation mostly waits for memory to be handed out.
+
+"""
+
 FILES = """Whole layers, each feature a domain of its own; columns as for the shapes, *as given* is medial on the coordinates of the file.
 All others get whole numbers: each feature enlarged by a power of two, and shifted, to fill 31 bits, and rounded.
 Features that bound no domain are left out, and so are those where, after rounding, edges meet elsewhere than at ends, which Boost cannot take.
@@ -86,6 +91,7 @@ PARTS = {
     "steps": (steps.TITLE, STEPS),
     "lee": ("Figures of Lee", LEE + PROCESSOR),
     "operations": ("Operations", OPERATIONS + PROCESSOR),
+    "file-operations": ("Operations on real files", FILE_OPERATIONS + PROCESSOR),
     "files": ("Real files", FILES + ROUNDS + PROCESSOR),
     "buildings": ("Buildings, file to file", BUILDINGS + PROCESSOR),
 }
