@@ -8,7 +8,7 @@
 //! to a tool of its own. Moves are exact curves; they meet bit for bit.
 //!
 //! # Method
-//! 1. Of an axis that may leave something the limbs below that excess are pruned (`hierarchy.rs`).
+//! 1. Of an axis that may leave something the limbs below that excess are pruned (`hierarchy/mod.rs`).
 //! 2. Each path of the axis is a move: a line between two edges, a quadratic over a parabola, a hyperbola
 //!    between two corners; below the limit of depth it ends at the wall (`moves.rs`).
 //! 3. Moves and walls that meet make a graph, and trails through it the passes of the bit (`order.rs`).

@@ -14,7 +14,7 @@
 //! ([`polylines`]) it can be smoothed and simplified within a tolerance, and stays inside.
 //!
 //! # Method
-//! 1. Ends: corners below a relative excess are pruned (`hierarchy.rs`). A component that is pruned to a
+//! 1. Ends: corners below a relative excess are pruned (`hierarchy/mod.rs`). A component that is pruned to a
 //!    single point keeps its whole axis instead.
 //! 2. What is left is a graph of pieces of paths (`graph.rs`), in which the best way of each component is
 //!    looked for (`longest.rs`, `label.rs`, `between.rs`).
