@@ -2,7 +2,7 @@ use super::context::Context;
 use super::verdict::{Counts, Identity, Relation};
 use crate::axis::{Accuracy, KeypointKind};
 use crate::domain::Corner;
-use crate::geom::{Point, order_key};
+use crate::geom::{DisjointSets, Point, order_key};
 
 /// Counts what there is on the domain and on the axis.
 pub(super) fn counts(context: &Context) -> Counts {
@@ -12,7 +12,7 @@ pub(super) fn counts(context: &Context) -> Counts {
     let keypoints = |kind| axis.keypoints().iter().filter(|k| k.kind == kind).count();
     let n = axis.keypoints().len();
     let mut degrees = vec![0u32; n];
-    let mut groups = Groups::new(n);
+    let mut groups = DisjointSets::new(n);
     for path in axis.paths() {
         degrees[path.from as usize] += 1;
         degrees[path.to as usize] += 1;
@@ -21,7 +21,9 @@ pub(super) fn counts(context: &Context) -> Counts {
     // All paths that are cut meet at infinity.
     let cut = (0..n as u32).filter(|&k| axis.keypoints().at(k).kind == KeypointKind::Clipped);
     let cut: Vec<u32> = if context.horizon.is_some() { cut.collect() } else { Vec::new() };
-    cut.windows(2).for_each(|pair| groups.join(pair[0], pair[1]));
+    for pair in cut.windows(2) {
+        groups.join(pair[0], pair[1]);
+    }
     let n = n - cut.len().saturating_sub(1);
     let axis_components = groups.count();
     let paths = axis.paths().len();
@@ -125,7 +127,7 @@ fn seen_by_samples(context: &Context, counts: &Counts) -> Option<(i64, i64)> {
         .flat_map(|(_, walk)| walk.edges().map(|edge| (domain.edge(edge).start, walk.component)))
         .collect();
     starts.sort_by_key(|(p, _)| (order_key(p.x), order_key(p.y)));
-    let mut groups = Groups::new(domain.n_components());
+    let mut groups = DisjointSets::new(domain.n_components());
     // How many points are the same as another one.
     let mut shared = 0;
     for pair in starts.windows(2).filter(|pair| pair[0].0 == pair[1].0) {
@@ -159,7 +161,7 @@ fn through_corners(context: &Context, counts: &Counts) -> Option<(i64, i64)> {
         .map(|(edge, component)| (domain.edge(edge).start, component))
         .collect();
     corners.sort_by_key(|(p, _)| (order_key(p.x), order_key(p.y)));
-    let mut groups = Groups::new(domain.n_components());
+    let mut groups = DisjointSets::new(domain.n_components());
     let mut shared = 0;
     for pair in corners.windows(2).filter(|pair| pair[0].0 == pair[1].0) {
         shared += 1;
@@ -180,33 +182,4 @@ fn far_joints(context: &Context) -> i64 {
     let at_corner = |corner: u32| domain.edge(corner).corner == Corner::Reflex;
     // A joint of two straight pieces is one of both of them.
     edges.map(|&edge| 1 + i64::from(at_corner(domain.edge(edge).next))).sum()
-}
-
-/// Disjoint sets of keypoints.
-struct Groups {
-    parent: Vec<u32>,
-}
-
-impl Groups {
-    fn new(n: usize) -> Self {
-        Self { parent: (0..n as u32).collect() }
-    }
-
-    fn find(&mut self, mut k: u32) -> u32 {
-        while self.parent[k as usize] != k {
-            let grandparent = self.parent[self.parent[k as usize] as usize];
-            self.parent[k as usize] = grandparent;
-            k = grandparent;
-        }
-        k
-    }
-
-    fn join(&mut self, a: u32, b: u32) {
-        let (a, b) = (self.find(a), self.find(b));
-        self.parent[a.max(b) as usize] = a.min(b);
-    }
-
-    fn count(&self) -> usize {
-        self.parent.iter().enumerate().filter(|&(k, &parent)| k as u32 == parent).count()
-    }
 }

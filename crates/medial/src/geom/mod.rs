@@ -3,6 +3,7 @@
 mod bounds_tree;
 mod capsule_tree;
 mod delaunay;
+mod disjoint_sets;
 mod disk;
 mod double;
 mod hilbert;
@@ -15,6 +16,7 @@ mod rims;
 pub use bounds_tree::{BoundsTree, Rect, Visitor};
 pub use capsule_tree::{CapsuleTree, Hidden, LEAF, Look, Scope};
 pub use delaunay::{Blocked, Delaunay, EdgeId, INFINITY};
+pub use disjoint_sets::DisjointSets;
 pub(crate) use disk::U;
 pub use disk::{Governor, TouchingDisk, Unsure};
 pub use double::Double;

@@ -1,4 +1,4 @@
-//! Numbers by group, and numbers that are joined.
+//! Numbers by group.
 
 use std::ops::Range;
 
@@ -118,31 +118,5 @@ impl Incidence {
             2 if is_open(second) => Some(second),
             _ => None,
         }
-    }
-}
-
-/// Which nodes are joined, as a forest.
-#[derive(Debug)]
-pub(super) struct Trees(Vec<u32>);
-
-impl Trees {
-    pub fn new(n: usize) -> Self {
-        Self((0..n as u32).collect())
-    }
-
-    pub fn root(&mut self, mut node: u32) -> u32 {
-        while self.0[node as usize] != node {
-            let above = self.0[node as usize];
-            self.0[node as usize] = self.0[above as usize];
-            node = above;
-        }
-        node
-    }
-
-    /// Joins two nodes; false if they were joined already.
-    pub fn join(&mut self, a: u32, b: u32) -> bool {
-        let (a, b) = (self.root(a), self.root(b));
-        self.0[a as usize] = b;
-        a != b
     }
 }

@@ -23,14 +23,13 @@ use std::cmp::Ordering;
 use std::collections::HashMap;
 
 use super::ground::Ground;
-use super::groups::Trees;
 use super::hierarchy::HierarchyError;
 use super::outline::{Contour, Outline, OutlineError, OutlinePiece, OutlinePolygon, Sense, Turns};
 use super::radii::{Limit, Radii};
 use crate::axis::{KeypointKind, MedialAxis, Side};
 use crate::domain::{Complement, Domain, Site};
 use crate::geom::predicates::Element;
-use crate::geom::{Point, orient2d};
+use crate::geom::{DisjointSets, Point, orient2d};
 
 /// Why there is no offset.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -272,7 +271,7 @@ impl<'s, 'a> Level<'s, 'a> {
     /// What is not farther than the distance outside.
     fn outside(&mut self) -> Result<Outline, OffsetError> {
         let shape = self.shape;
-        let mut joined = Trees::new(shape.n_components);
+        let mut joined = DisjointSets::new(shape.n_components);
         for (number, path) in (0..).zip(shape.axis.paths()) {
             let [left, right] = [path.left, path.right].map(|s| shape.radii.governor(s));
             let [left, right] = [left, right].map(|s| shape.component(s));
@@ -282,7 +281,7 @@ impl<'s, 'a> Level<'s, 'a> {
         }
         let mut contours: Vec<Vec<Contour>> = vec![Vec::new(); shape.n_components];
         let mut add = |(contour, of): (Contour, Site)| {
-            let component = joined.root(shape.component(of));
+            let component = joined.first(shape.component(of));
             contours[component as usize].push(contour.reversed());
         };
         if let Some(walk) = shape.horizon.convex {

@@ -22,13 +22,12 @@ use i_overlay::core::fill_rule::FillRule;
 #[cfg(feature = "union")]
 use i_overlay::float::simplify::SimplifyShape;
 
-use super::groups::Trees;
 use super::outline::{Component, OutlineError, Turns, WRAPPED};
 use crate::axis::{Accuracy, Curve, MedialAxis, Side, Site, SiteKind};
 use crate::check::Name;
 #[cfg(feature = "union")]
 use crate::geom::Rect;
-use crate::geom::{Point, orient2d};
+use crate::geom::{DisjointSets, Point, orient2d};
 
 /// Why an axis does not give back its polygons.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -133,7 +132,7 @@ fn grouped(axis: &MedialAxis, mut rings: Vec<Ring>) -> Vec<Vec<Vec<Point>>> {
     if (0..rings.len()).all(|k| is_first(k) && rings[k].is_outer) {
         return rings.into_iter().map(|ring| vec![ring.corners]).collect();
     }
-    let mut trees = Trees::new(rings.len());
+    let mut trees = DisjointSets::new(rings.len());
     let mut ring_of = Vec::with_capacity(axis.sites().len());
     let mut last = 0;
     for site in axis.sites().in_order() {
@@ -149,7 +148,7 @@ fn grouped(axis: &MedialAxis, mut rings: Vec<Ring>) -> Vec<Vec<Vec<Point>>> {
             trees.join(left, right);
         }
     }
-    let roots: Vec<u32> = (0..rings.len() as u32).map(|ring| trees.root(ring)).collect();
+    let roots: Vec<u32> = (0..rings.len() as u32).map(|ring| trees.first(ring)).collect();
     // Of each polygon the first ring is the outer one, and the only one, and the others belong to it.
     let is_given = (0..rings.len())
         .all(|k| rings[k].is_outer == is_first(k) && (is_first(k) || roots[k] == roots[k - 1]));

@@ -21,11 +21,10 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::super::groups::Trees;
 use super::graph::{Graph, NONE, Pieces, Way};
 use super::simplify::kept;
 use crate::axis::{Curve, MedialAxis};
-use crate::geom::Point;
+use crate::geom::{DisjointSets, Point};
 
 /// How far a way is straightened before its turns are counted, as a share of the height of the text.
 const STRAIGHTENED: f64 = 0.25;
@@ -42,7 +41,7 @@ pub(super) fn graph<'a>(axis: &'a MedialAxis, paths: &[u32], height: f64) -> Gra
     let mut order: Vec<(f64, u32)> =
         paths.iter().map(|&path| (curve(path).radius_min(), path)).collect();
     order.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
-    let mut trees = Trees::new(axis.keypoints().len());
+    let mut trees = DisjointSets::new(axis.keypoints().len());
     let mut pieces = Pieces::of(axis);
     let mut is_whole = true;
     for (least, path) in order {
@@ -82,7 +81,7 @@ fn bent(pieces: &mut Pieces, path: u32, curve: &Curve, [from, to]: [f64; 2], hei
 
 /// The best way through a component, which is a tree.
 pub(super) fn way(graph: &Graph, component: &[u32], height: f64) -> Option<Way> {
-    let mut clusters = Trees::new(component.len());
+    let mut clusters = DisjointSets::new(component.len());
     let mut legs = Vec::new();
     for chain in chains(graph, component) {
         let ends = [chain.nodes[0], chain.nodes[chain.nodes.len() - 1]];
@@ -96,7 +95,7 @@ pub(super) fn way(graph: &Graph, component: &[u32], height: f64) -> Option<Way> 
         legs.extend(straightened(graph, &chain, height));
     }
     for leg in &mut legs {
-        leg.clusters = leg.nodes.map(|node| clusters.root(graph.place(node) as u32));
+        leg.clusters = leg.nodes.map(|node| clusters.first(graph.place(node) as u32));
     }
     let best = best(component.len(), &legs, height)?;
     let ways = graph.ways_from(best.from, component.len());
