@@ -135,10 +135,9 @@ impl Remains<'_> {
         self.foot(column, row).map(|(dx, dy)| cell_radius(self.mask.grid(), dx, dy))
     }
 
-    /// How far each node of a graph is from the nearest cell outside, between centres, in widths of a cell.
-    pub fn distances(&self, graph: &PixelGraph) -> Vec<f64> {
-        let distance = |&[x, y]: &[u32; 2]| self.features.squared(x as i32, y as i32).sqrt();
-        graph.cells.iter().map(distance).collect()
+    /// How far a cell of the shape is from the nearest one outside, between centres, in widths of a cell.
+    pub fn distance(&self, [x, y]: [u32; 2]) -> f64 {
+        self.features.squared(x as i32, y as i32).sqrt()
     }
 
     /// The axis of a graph of cells, with the edges of the mask's outline as sites.

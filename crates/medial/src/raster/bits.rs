@@ -99,13 +99,19 @@ impl Bits {
         three(first) | three(first + self.stride) << 3 | three(first + 2 * self.stride) << 6
     }
 
-    /// Up to 64 bits of a row from a column that is a multiple of 8.
+    /// Up to 64 bits of a row, or of the one behind the last, from a column that is a multiple of 8.
     #[inline(always)]
-    fn word(&self, x: u32, y: u32) -> u64 {
+    pub fn word(&self, x: u32, y: u32) -> u64 {
         let at = self.byte(x as i32, y as i32);
         let word = u64::from_le_bytes(self.data[at..at + 8].try_into().unwrap_or_default());
         let left = self.columns - x;
         if left < 64 { word & ((1 << left) - 1) } else { word }
+    }
+
+    /// A row, 64 bits at a time, each with the column where it starts; nothing stands behind the last one.
+    #[inline(always)]
+    pub fn words(&self, y: u32) -> impl Iterator<Item = (u32, u64)> + '_ {
+        (0..self.columns).step_by(64).map(move |x| (x, self.word(x, y)))
     }
 
     /// The runs of ones in a row: their first column, and the one behind their last.
@@ -115,8 +121,7 @@ impl Bits {
 
     /// The columns of the ones in a row.
     pub fn ones(&self, y: u32) -> impl Iterator<Item = u32> + '_ {
-        (0..self.columns).step_by(64).flat_map(move |x| {
-            let mut word = self.word(x, y);
+        self.words(y).flat_map(|(x, mut word)| {
             std::iter::from_fn(move || {
                 let place = word.trailing_zeros();
                 word &= word.wrapping_sub(1);

@@ -150,10 +150,9 @@ impl<'m> Skeleton<'m> {
         if self.complete {
             return graph;
         }
-        let radii = self.remains.distances(&graph);
-        graph.drop_stubs(self.remains.mask.grid().aspect(), |node| radii[node as usize]);
-        let radii = self.remains.distances(&graph);
-        graph.join_junctions(|node| radii[node as usize]);
+        let distance = |cell| self.remains.distance(cell);
+        graph.drop_stubs(self.remains.mask.grid().aspect(), distance);
+        graph.join_junctions(distance);
         graph
     }
 
