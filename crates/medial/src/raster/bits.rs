@@ -108,6 +108,38 @@ impl Bits {
         if left < 64 { word & ((1 << left) - 1) } else { word }
     }
 
+    /// Sets those of 64 bits of a row, from a column that is a multiple of 8, that are set in a word.
+    #[inline(always)]
+    pub fn set_word(&mut self, x: u32, y: u32, word: u64) {
+        debug_assert!(self.columns - x >= 64 || word >> (self.columns - x) == 0);
+        let at = self.byte(x as i32, y as i32);
+        for (byte, set) in self.data[at..at + 8].iter_mut().zip(word.to_le_bytes()) {
+            *byte |= set;
+        }
+    }
+
+    /// Clears all bits.
+    pub fn clear_all(&mut self) {
+        self.data.fill(0);
+    }
+
+    /// Of 64 cells of a row from a column that is a multiple of 8, those that are set with their eight
+    /// neighbours.
+    #[inline(always)]
+    pub fn surrounded(&self, x: u32, y: u32) -> u64 {
+        // What is set in all three rows, with a bit more at both ends.
+        let at = self.byte(x as i32, y as i32);
+        let [above, below] = [at - self.stride, at + self.stride];
+        let word =
+            |at: usize| u64::from_le_bytes(self.data[at..at + 8].try_into().unwrap_or_default());
+        let set = word(above) & word(at) & word(below);
+        let all =
+            |places: [usize; 3]| places.iter().fold(0xff, |all, &place| all & self.data[place]);
+        let before = u64::from(all([above - 1, at - 1, below - 1]) >> 7);
+        let behind = u64::from(all([above + 8, at + 8, below + 8]) & 1);
+        set & (set << 1 | before) & (set >> 1 | behind << 63)
+    }
+
     /// A row, 64 bits at a time, each with the column where it starts; nothing stands behind the last one.
     #[inline(always)]
     pub fn words(&self, y: u32) -> impl Iterator<Item = (u32, u64)> + '_ {
@@ -121,13 +153,7 @@ impl Bits {
 
     /// The columns of the ones in a row.
     pub fn ones(&self, y: u32) -> impl Iterator<Item = u32> + '_ {
-        self.words(y).flat_map(|(x, mut word)| {
-            std::iter::from_fn(move || {
-                let place = word.trailing_zeros();
-                word &= word.wrapping_sub(1);
-                (place < 64).then_some(x + place)
-            })
-        })
+        self.words(y).flat_map(|(x, word)| ones(x, word))
     }
 
     /// The number of ones.
@@ -156,6 +182,16 @@ impl Bits {
             self.data[at + n - 1] &= (1 << (self.columns % 8)) - 1;
         }
     }
+}
+
+/// The columns of the ones in a word that starts at a column.
+#[inline(always)]
+pub(crate) fn ones(column: u32, mut word: u64) -> impl Iterator<Item = u32> {
+    std::iter::from_fn(move || {
+        let place = word.trailing_zeros();
+        word &= word.wrapping_sub(1);
+        (place < 64).then_some(column + place)
+    })
 }
 
 /// The runs of ones in a row.
@@ -264,16 +300,28 @@ pub(crate) const fn n_runs(ring: &[bool; 8]) -> u32 {
 /// Whether the cell in the middle of a window is neither an end nor needed.
 ///
 /// An end has one neighbour, or two that are beside each other.
+#[inline(always)]
 pub(crate) fn can_go(window: u16) -> bool {
-    if !SIMPLE[window as usize] {
-        return false;
+    CAN_GO[window as usize]
+}
+
+static CAN_GO: [bool; 512] = can_go_table();
+
+const fn can_go_table() -> [bool; 512] {
+    let mut table = [false; 512];
+    let mut window = 0;
+    while window < 512 {
+        let ring = window as u16 & WINDOW_RING;
+        let mut is_end = ring.count_ones() < 2;
+        let mut k = 0;
+        while k < 8 {
+            is_end = is_end || ring == ENDS[k];
+            k += 1;
+        }
+        table[window] = is_simple(window as u16) && !is_end;
+        window += 1;
     }
-    let ring = window & WINDOW_RING;
-    match ring.count_ones() {
-        0 | 1 => false,
-        2 => !ENDS.contains(&ring),
-        _ => true,
-    }
+    table
 }
 
 /// Pairs of neighbours beside each other.

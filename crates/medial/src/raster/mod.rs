@@ -8,7 +8,7 @@
 mod bits;
 mod crack_code;
 #[cfg(test)]
-mod dice;
+pub(crate) mod dice;
 mod digitise;
 mod disks;
 mod features;
@@ -19,7 +19,7 @@ mod outline;
 mod pixel_graph;
 mod topology;
 
-pub(crate) use bits::{Bits, SIMPLE, WINDOW_RING, can_go, filled_ring, n_runs};
+pub(crate) use bits::{Bits, SIMPLE, WINDOW_RING, can_go, filled_ring, n_runs, ones};
 pub use crack_code::{CrackChain, CrackError, CrackWalk, Turn, crack_chains, mask_of_cracks};
 pub use digitise::{
     DigitiseError, boundary_cells, default_cell, digitise, grid_around, line_cells,
