@@ -56,7 +56,7 @@ impl OutlineBoundary<'_> {
     /// The edge with the crack of a cell outside that faces another cell.
     fn edge(&self, [x, y]: [i32; 2], to: [i32; 2]) -> u32 {
         let side = CellSide::facing(to[0] - x, to[1] - y);
-        self.cracks.edge_of[self.cracks.at(x, y, side) as usize]
+        self.cracks.at(x, y, side)
     }
 
     fn edge_nearest(&self, x: i32, y: i32) -> u32 {
@@ -102,7 +102,7 @@ pub(super) fn outside_record(outside: &Domain, site: Site) -> axis::Site {
 pub(super) fn outline_record(cracks: &Cracks, grid: &Grid, element: u32) -> axis::Site {
     let edge = &cracks.edges[element as usize];
     let contour = &cracks.contours[edge.contour as usize];
-    let ends = [edge.from, cracks.end_of(element)];
+    let ends = [edge.from(), cracks.end_of(element)];
     let [from, to] = ends.map(|[column, row]| grid.corner(column, row));
     // The shape is to the left as long as rows go up when columns go to the right.
     let (a, b) = if grid.is_mirrored() { (to, from) } else { (from, to) };

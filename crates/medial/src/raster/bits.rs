@@ -57,6 +57,13 @@ impl Bits {
         self.data[byte] |= 1 << (x & 7);
     }
 
+    /// Sets a bit on a condition, without a branch.
+    #[inline(always)]
+    pub fn set_if(&mut self, x: i32, y: i32, is_set: bool) {
+        let byte = self.byte(x, y);
+        self.data[byte] |= u8::from(is_set) << (x & 7);
+    }
+
     #[inline(always)]
     pub fn clear(&mut self, x: i32, y: i32) {
         let byte = self.byte(x, y);
@@ -97,6 +104,31 @@ impl Bits {
             u16::from_le_bytes(pair) >> shift & 7
         };
         three(first) | three(first + self.stride) << 3 | three(first + 2 * self.stride) << 6
+    }
+
+    /// The four cells around a corner, so many columns and rows from the origin: two bits a row from the upper
+    /// one, each from the left.
+    #[inline(always)]
+    pub fn block(&self, x: i32, y: i32) -> usize {
+        let shift = (x + 7) & 7;
+        let at = self.byte(x - 1, y - 1);
+        let two = |at: usize| u16::from_le_bytes([self.data[at], self.data[at + 1]]) >> shift & 3;
+        usize::from(two(at) | two(at + self.stride) << 2)
+    }
+
+    /// How many corners the outline of the ones has; two where two cells touch at a corner only.
+    pub fn n_corners(&self) -> usize {
+        // Rows are apart by zeros, so they are one long row.
+        let word =
+            |at: usize| u64::from_le_bytes(self.data[at..at + 8].try_into().unwrap_or_default());
+        let pair = |at: usize| [word(at), word(at) >> 1 | u64::from(self.data[at + 8]) << 63];
+        let corners = |at: usize| {
+            let ([a, b], [c, d]) = (pair(at), pair(at + self.stride));
+            let twice = (a ^ b) & (a ^ c) & !(a ^ d);
+            (a ^ b ^ c ^ d).count_ones() + 2 * twice.count_ones()
+        };
+        let end = self.stride * (self.rows as usize + 1);
+        (0..end).step_by(8).map(|at| corners(at) as usize).sum()
     }
 
     /// Up to 64 bits of a row, or of the one behind the last, from a column that is a multiple of 8.

@@ -79,7 +79,7 @@ impl Pairs<'_> {
 
     /// The crack of a cell outside on one side.
     fn crack(&self, x: i32, y: i32, side: Side) -> Foot {
-        let (contour, along) = self.cracks.position(self.cracks.at(x, y, side));
+        let (contour, along) = self.cracks.position(x, y, side);
         Foot { contour, along, middle: middle(x, y, side) }
     }
 
