@@ -308,7 +308,8 @@ pub(super) fn axis_of_cells(
     }
     drop(incident);
     let too_large = || EngineError::TooLarge { n_edges: boundary.len() as usize };
-    let mut sites = SiteTable::with_room(0, 0, 0);
+    let n_sites = number.iter().filter(|number| **number == 0).count();
+    let mut sites = SiteTable::with_room(n_sites, n_sites, 0);
     for (element, number) in (0..).zip(&mut number).filter(|(_, number)| **number == 0) {
         *number = sites.len();
         sites.push(&boundary.record(element)).ok_or_else(too_large)?;

@@ -199,11 +199,30 @@ impl Bits {
         &self.data[at..at + (self.columns as usize).div_ceil(8)]
     }
 
-    /// The bytes of a row from eight columns before the first one up to at least one behind the last; also of
-    /// the rows just outside.
-    pub fn framed_row(&self, y: i32) -> &[u8] {
-        let at = self.byte(-8, y);
-        &self.data[at..at + self.stride]
+    /// Columns before the first one in framed rows, which have at least one behind the last, too.
+    pub const LEAD: i32 = 8;
+
+    /// How many words of 64 bits a framed row has.
+    pub fn n_framed_words(&self) -> usize {
+        self.stride.div_ceil(8)
+    }
+
+    /// 64 bits of a framed row, also of those just outside; zeros beyond it.
+    #[inline(always)]
+    pub fn framed_word(&self, y: i32, number: usize) -> u64 {
+        let at = self.byte(-Self::LEAD, y) + 8 * number;
+        let word = u64::from_le_bytes(self.data[at..at + 8].try_into().unwrap_or_default());
+        let n_bytes = self.stride - 8 * number;
+        if n_bytes < 8 { word & ((1 << (8 * n_bytes)) - 1) } else { word }
+    }
+
+    /// Sets those of 64 bits of a framed row that are set in a word.
+    #[inline(always)]
+    pub fn set_framed_word(&mut self, y: i32, number: usize, word: u64) {
+        let at = self.byte(-Self::LEAD, y) + 8 * number;
+        for (byte, set) in self.data[at..at + 8].iter_mut().zip(word.to_le_bytes()) {
+            *byte |= set;
+        }
     }
 
     /// Takes over a row, the first cell in the lowest bit.

@@ -17,6 +17,7 @@ mod margin;
 mod mask;
 mod outline;
 mod pixel_graph;
+mod ranks;
 mod topology;
 
 pub(crate) use bits::{Bits, SIMPLE, WINDOW_RING, can_go, filled_ring, n_runs, ones};
@@ -26,7 +27,7 @@ pub use digitise::{
 };
 pub(crate) use disks::disk_cells;
 pub use disks::mask_of_disks;
-pub(crate) use features::{Band, Features};
+pub(crate) use features::{Band, Features, Offset};
 pub use grid::Grid;
 pub use mask::{Mask, MaskError};
 pub use outline::outline;

@@ -76,18 +76,20 @@ impl PixelGraph {
     pub(crate) fn incidence(&self) -> (Vec<u32>, Vec<u32>) {
         let mut starts = vec![0_u32; self.cells.len() + 1];
         for &[a, b] in &self.steps {
-            starts[a as usize + 1] += 1;
-            starts[b as usize + 1] += 1;
+            starts[a as usize] += 1;
+            starts[b as usize] += 1;
         }
-        for k in 1..starts.len() {
-            starts[k] += starts[k - 1];
+        // Where the steps of each node end; they are put in from there backwards.
+        let mut end = 0;
+        for start in &mut starts {
+            end += *start;
+            *start = end;
         }
-        let mut next = starts.clone();
         let mut steps = vec![0_u32; 2 * self.steps.len()];
-        for (number, ends) in (0..).zip(&self.steps) {
+        for (number, ends) in (0..self.steps.len() as u32).zip(&self.steps).rev() {
             for &node in ends {
-                steps[next[node as usize] as usize] = number;
-                next[node as usize] += 1;
+                starts[node as usize] -= 1;
+                steps[starts[node as usize] as usize] = number;
             }
         }
         (starts, steps)

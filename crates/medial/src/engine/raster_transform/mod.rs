@@ -71,13 +71,12 @@ impl<'m> Skeleton<'m> {
         watch.check_now()?;
         // Without a threshold, whatever lies between two feet.
         let threshold = residual.map_or(-0.5, |residual| residual as f32);
-        let mut search = Search::new(bits.columns(), threshold);
+        let mut search = Search::new(bits, threshold);
         let mut kept = Bits::new(bits.columns(), bits.rows());
         let mut thinning = Thinning::new(bits);
         for rows in features.bands() {
             features.with_band(rows.start, |band| {
-                let found = search.rows(bits, band, &cracks, aspect, rows.clone());
-                found.iter().for_each(|cell| kept.set(cell.x as i32, cell.y as i32));
+                search.rows(bits, band, &cracks, aspect, rows.clone(), &mut kept);
                 thinning.band(&kept, band, rows);
             });
             watch.check_now()?;

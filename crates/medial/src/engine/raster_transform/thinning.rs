@@ -11,17 +11,14 @@ use crate::raster::{Band, Bits, SIMPLE, WINDOW_RING, can_go, ones};
 /// Steps of the distance within which cells go in the order in which they became removable.
 const STEPS_PER_CELL: f32 = 4.0;
 
-/// The eight neighbours of a cell, by their bits in a window.
-const NEIGHBOURS: [(u16, i32, i32); 8] = [
-    (1 << 0, -1, -1),
-    (1 << 1, 0, -1),
-    (1 << 2, 1, -1),
-    (1 << 3, -1, 0),
-    (1 << 5, 1, 0),
-    (1 << 6, -1, 1),
-    (1 << 7, 0, 1),
-    (1 << 8, 1, 1),
-];
+/// Those neighbours of a cell whose bits are set in a window.
+#[inline(always)]
+fn neighbours((x, y): (i32, i32), window: u16) -> impl Iterator<Item = (i32, i32)> {
+    /// Columns and rows to each cell of a window.
+    const WAYS: [(i32, i32); 9] =
+        [(-1, -1), (0, -1), (1, -1), (-1, 0), (0, 0), (1, 0), (-1, 1), (0, 1), (1, 1)];
+    ones(0, window.into()).map(move |k| (x + WAYS[k as usize].0, y + WAYS[k as usize].1))
+}
 
 /// A cell as its column and row.
 fn packed(x: i32, y: i32) -> u32 {
@@ -119,12 +116,9 @@ impl Thinning {
                 if y + 1 == end {
                     free &= !BELOW;
                 }
-                for (bit, dx, dy) in NEIGHBOURS {
-                    if free & bit != 0 {
-                        let (u, v) = (x + dx, y + dy);
-                        waits.set(u, v);
-                        push(queues, level(u, v).max(now), u, v);
-                    }
+                for (u, v) in neighbours((x, y), free) {
+                    waits.set(u, v);
+                    push(queues, level(u, v).max(now), u, v);
                 }
             }
             queues[now] = Vec::new();
@@ -199,8 +193,7 @@ pub(super) fn thin_further(thinning: Thinning, medial: &[MedialCell]) -> Bits {
         }
         shape.clear(x, y);
         let free = window & WINDOW_RING & !waits.window(x, y);
-        for (_, dx, dy) in NEIGHBOURS.into_iter().filter(|(bit, ..)| free & bit != 0) {
-            let (x, y) = (x + dx, y + dy);
+        for (x, y) in neighbours((x, y), free) {
             if can_go(shape.window(x, y)) {
                 let cell = packed(x, y);
                 waits.set(x, y);
