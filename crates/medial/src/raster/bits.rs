@@ -390,6 +390,8 @@ const ENDS: [u16; 8] = [
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::raster::dice::dice;
+    use crate::raster::{Grid, Mask};
 
     fn drawn(rows: &[&str]) -> Bits {
         let mut bits = Bits::new(rows[0].len() as u32, rows.len() as u32);
@@ -431,6 +433,61 @@ mod tests {
                 }
                 assert_eq!(bits.window(x, y), expected, "{x} {y}");
             }
+        }
+    }
+
+    #[test]
+    fn words_know_the_neighbours_of_their_cells() {
+        for seed in 1..300 {
+            let mut dice = dice(seed);
+            let (columns, rows, fill) = (dice() as u32 % 150, dice() as u32 % 6, dice() % 101);
+            let grid = Grid::of_image(columns, rows);
+            let bits = Mask::new(grid, |_, _| dice() % 100 < fill).unwrap().bits;
+            let mut n_corners = 0;
+            let mut copy = Bits::new(columns, rows);
+            for y in -1..=rows as i32 {
+                for x in -1..=columns as i32 {
+                    if x < columns as i32 && y < rows as i32 {
+                        let [a, b] = [0, 1].map(|dx| bits.get(x + dx, y));
+                        let [c, d] = [0, 1].map(|dx| bits.get(x + dx, y + 1));
+                        let block = [a, b, c, d]
+                            .iter()
+                            .rev()
+                            .fold(0, |all, &is| all << 1 | usize::from(is));
+                        assert_eq!(bits.block(x + 1, y + 1), block, "{seed}");
+                        n_corners += match [a, b, c, d].iter().filter(|is| **is).count() {
+                            1 | 3 => 1,
+                            2 if a == d => 2,
+                            _ => 0,
+                        };
+                    }
+                    let place = (x + Bits::LEAD) as usize;
+                    let framed = bits.framed_word(y, place / 64) >> (place % 64) & 1 != 0;
+                    assert_eq!(framed, bits.get(x, y), "{seed}: {x} {y}");
+                }
+            }
+            assert_eq!(bits.n_corners(), n_corners, "{seed}");
+            for y in 0..rows {
+                for (column, word) in bits.words(y) {
+                    let surrounded = bits.surrounded(column, y);
+                    for x in column..columns.min(column + 64) {
+                        let is_one = surrounded >> (x - column) & 1 != 0;
+                        assert_eq!(
+                            is_one,
+                            bits.window(x as i32, y as i32) == 0x1ff,
+                            "{seed}: {x} {y}"
+                        );
+                    }
+                    copy.set_word(column, y, word);
+                }
+            }
+            assert_eq!(copy, bits, "{seed}");
+            copy.clear_all();
+            for number in 0..bits.n_framed_words() {
+                (0..rows as i32)
+                    .for_each(|y| copy.set_framed_word(y, number, bits.framed_word(y, number)));
+            }
+            assert_eq!(copy, bits, "{seed}");
         }
     }
 

@@ -3,7 +3,8 @@
 //! # Contract
 //! Distances are those between centres, cells may be higher than wide, and what lies around the array is
 //! outside. The cell found is one of the nearest; of several, the same one for any number of threads and
-//! any height of bands. Time is linear in the cells, and four bytes are kept for each cell of a band.
+//! any height of bands. Time is linear in the cells, and four bytes are kept for each cell of the shape in a
+//! band, besides a bit and a half for each cell.
 //!
 //! # Method
 //! [MRH00] in two phases. Along columns, the nearest cell outside above or below. Then along each run of a
@@ -108,7 +109,7 @@ impl<'b> Features<'b> {
 
     /// As many rows as are kept at a time where nothing else is said.
     pub fn usual_height(bits: &Bits) -> u32 {
-        /// Masks of no more cells are kept whole: 256 MB.
+        /// Masks of no more cells are kept whole: at most 270 MB, if all belong to the shape.
         const WHOLE: u64 = 1 << 26;
         /// Cells of a band of larger ones: as few as cost little time.
         const CELLS: u64 = 1 << 24;

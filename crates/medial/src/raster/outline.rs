@@ -353,3 +353,85 @@ impl Cracks {
 pub fn outline(mask: &Mask) -> Vec<Vec<Vec<Point>>> {
     Cracks::contours_of(&mask.bits).polygons(mask.grid())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::raster::dice::dice;
+
+    #[test]
+    fn cracks_are_found_by_their_cells_along_their_contours() {
+        for seed in 1..500 {
+            let mut dice = dice(seed);
+            let (columns, rows, fill) = (dice() as u32 % 20, dice() as u32 % 20, dice() % 101);
+            let grid = Grid::of_image(columns, rows);
+            let mask = Mask::new(grid, |_, _| dice() % 100 < fill).unwrap();
+            let cracks = Cracks::new(&mask.bits);
+            // The cracks of each contour by their corners, walked again.
+            let mut places = std::collections::BTreeMap::new();
+            for (contour, record) in (0..).zip(&cracks.contours) {
+                let mut along = 0.0;
+                for (number, edge) in (record.first..).zip(cracks.edges_of(contour)) {
+                    let (from, to) = (edge.from(), cracks.end_of(number));
+                    let n = from[0].abs_diff(to[0]) + from[1].abs_diff(to[1]);
+                    assert!((from[0] == to[0]) != (from[1] == to[1]), "{seed}");
+                    for k in 0..n {
+                        let end =
+                            |k: u32| [0, 1].map(|axis| (from[axis] * (n - k) + to[axis] * k) / n);
+                        places.insert([end(k), end(k + 1)], (contour, number, along));
+                        along += if k + 1 < n { 1.0 } else { AROUND };
+                    }
+                }
+                assert!((along - record.length).abs() < 1e-9, "{seed}");
+            }
+            assert_eq!(places.len(), cracks.n_cracks, "{seed}");
+            // All cells outside with one of the shape at a side, with the shape to the left of the crack.
+            let ways = [
+                (Side::Right, [1, 0], [[1, 1], [1, 0]]),
+                (Side::Below, [0, 1], [[0, 1], [1, 1]]),
+                (Side::Left, [-1, 0], [[0, 0], [0, 1]]),
+                (Side::Above, [0, -1], [[1, 0], [0, 0]]),
+            ];
+            let mut n_cracks = 0;
+            for y in -1..=rows as i32 {
+                for x in -1..=columns as i32 {
+                    for (side, [dx, dy], ends) in ways {
+                        let (u, v) = (x + dx, y + dy);
+                        let is_within =
+                            (0..columns as i32).contains(&u) && (0..rows as i32).contains(&v);
+                        if mask.bits.get(x, y) || !is_within || !mask.bits.get(u, v) {
+                            continue;
+                        }
+                        n_cracks += 1;
+                        let ends = ends.map(|[ex, ey]| [(x + ex) as u32, (y + ey) as u32]);
+                        let (contour, edge, along) = places[&ends];
+                        assert_eq!(cracks.at(x, y, side), edge, "{seed}");
+                        let found = cracks.position(x, y, side);
+                        assert_eq!(found.0, contour, "{seed}");
+                        assert!((found.1 - along).abs() < 1e-6, "{seed}: {} {along}", found.1);
+                    }
+                }
+            }
+            assert_eq!(n_cracks, cracks.n_cracks, "{seed}");
+        }
+    }
+
+    #[test]
+    fn holes_belong_to_the_contour_around_them_with_and_without_a_margin() {
+        for seed in 1..500 {
+            let mut dice = dice(seed);
+            let (columns, rows, fill) = (dice() as u32 % 20, dice() as u32 % 20, 40 + dice() % 60);
+            let grid = Grid::of_image(columns, rows);
+            let mask = Mask::new(grid, |_, _| dice() % 100 < fill).unwrap();
+            let rings = |cracks: Cracks| -> Vec<[u32; 2]> {
+                cracks.contours.iter().map(|contour| [contour.polygon, contour.ring]).collect()
+            };
+            let found = rings(Cracks::new(&mask.bits));
+            assert_eq!(found, rings(Cracks::contours_of(&mask.bits)), "{seed}");
+            let n_holes = found.iter().filter(|ring| ring[1] > 0).count();
+            let expected = crate::raster::topology(&mask);
+            assert_eq!(n_holes, expected.holes as usize, "{seed}");
+            assert_eq!(found.len() - n_holes, expected.components as usize, "{seed}");
+        }
+    }
+}

@@ -39,7 +39,7 @@ struct Foot {
 }
 
 /// What is known of a row of cells: of each of them by its place, and 64 to a word. Places are counted from
-/// that many columns before the first one.
+/// [`Bits::LEAD`] columns before the first one.
 #[derive(Debug)]
 struct Row {
     y: i32,
@@ -54,13 +54,16 @@ struct Row {
     residuals: Vec<f32>,
 }
 
-/// No foot is apart from another one.
+/// Room that is made at once for what will be found: what is not needed of it is hardly touched.
+const ROOM: usize = 1 << 20;
+
+/// The residual where no foot is apart from another one.
 const NONE: f32 = -1.0;
 
 impl Row {
     /// The row before the first one.
-    fn new(columns: u32) -> Self {
-        let n_words = Bits::new(columns, 0).n_framed_words();
+    fn new(bits: &Bits) -> Self {
+        let n_words = bits.n_framed_words();
         // One more, so that each has a next one.
         let n = 64 * (n_words + 1);
         Self {
@@ -185,10 +188,9 @@ pub(super) struct Search {
 impl Search {
     /// Looks for cells whose residual is above a threshold.
     pub fn new(bits: &Bits, threshold: f32) -> Self {
-        let [own, below] = [(); 2].map(|()| Row::new(bits.columns()));
+        let [own, below] = [(); 2].map(|()| Row::new(bits));
         let [across, down] = [(); 2].map(|()| vec![0; bits.n_framed_words()]);
-        // Memory that is not needed is not touched.
-        let found = Vec::with_capacity(bits.count() as usize / 2);
+        let found = Vec::with_capacity(ROOM.min(bits.count() as usize / 2));
         Self { threshold, own, below, across, down, found }
     }
 
