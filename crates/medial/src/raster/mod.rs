@@ -19,8 +19,9 @@ mod outline;
 mod pixel_graph;
 mod ranks;
 mod topology;
+mod windows;
 
-pub(crate) use bits::{Bits, SIMPLE, WINDOW_RING, can_go, filled_ring, n_runs, ones};
+pub(crate) use bits::{Bits, ones};
 pub use crack_code::{CrackChain, CrackError, CrackWalk, Turn, crack_chains, mask_of_cracks};
 pub use digitise::{
     DigitiseError, boundary_cells, default_cell, digitise, grid_around, line_cells,
@@ -34,3 +35,4 @@ pub use outline::outline;
 pub(crate) use outline::{Contour, Cracks, Side};
 pub use pixel_graph::PixelGraph;
 pub use topology::{Topology, topology};
+pub(crate) use windows::{SIMPLE, WINDOW_RING, can_go, filled_ring, n_runs};
