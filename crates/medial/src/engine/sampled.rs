@@ -35,9 +35,6 @@ pub(super) trait Boundary {
     fn record(&self, element: u32) -> axis::Site;
 }
 
-/// Elements around a node.
-type Around = SmallVec<[u32; 4]>;
-
 /// What is nearest to a cell.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Foot {
@@ -59,7 +56,7 @@ impl OutlineBoundary<'_> {
     /// The edge with the crack of a cell outside that faces another cell.
     fn edge(&self, [x, y]: [i32; 2], to: [i32; 2]) -> u32 {
         let side = CellSide::facing(to[0] - x, to[1] - y);
-        self.cracks.edge_of[self.cracks.at(x, y, side) as usize]
+        self.cracks.at(x, y, side)
     }
 
     fn edge_nearest(&self, x: i32, y: i32) -> u32 {
@@ -105,7 +102,7 @@ pub(super) fn outside_record(outside: &Domain, site: Site) -> axis::Site {
 pub(super) fn outline_record(cracks: &Cracks, grid: &Grid, element: u32) -> axis::Site {
     let edge = &cracks.edges[element as usize];
     let contour = &cracks.contours[edge.contour as usize];
-    let ends = [edge.from, cracks.end_of(element)];
+    let ends = [edge.from(), cracks.end_of(element)];
     let [from, to] = ends.map(|[column, row]| grid.corner(column, row));
     // The shape is to the left as long as rows go up when columns go to the right.
     let (a, b) = if grid.is_mirrored() { (to, from) } else { (from, to) };
@@ -135,10 +132,9 @@ impl Remains<'_> {
         self.foot(column, row).map(|(dx, dy)| cell_radius(self.mask.grid(), dx, dy))
     }
 
-    /// How far each node of a graph is from the nearest cell outside, between centres, in widths of a cell.
-    pub fn distances(&self, graph: &PixelGraph) -> Vec<f64> {
-        let distance = |&[x, y]: &[u32; 2]| self.features.squared(x as i32, y as i32).sqrt();
-        graph.cells.iter().map(distance).collect()
+    /// How far a cell of the shape is from the nearest one outside, between centres, in widths of a cell.
+    pub fn distance(&self, [x, y]: [u32; 2]) -> f64 {
+        self.features.squared(x as i32, y as i32).sqrt()
     }
 
     /// The axis of a graph of cells, with the edges of the mask's outline as sites.
@@ -279,52 +275,47 @@ pub(super) fn axis_of_cells(
     boundary: &impl Boundary,
     label: Label,
 ) -> Result<MedialAxis, EngineError> {
-    let feet: Vec<Foot> =
-        graph.cells.iter().map(|&[x, y]| boundary.foot(x as i32, y as i32)).collect();
-    // Elements to the left and right of each step.
-    let sides: Vec<[u32; 2]> =
-        graph.steps.iter().map(|&step| sides_of(graph, grid, boundary, &feet, step)).collect();
-    // Of large images these are most of the memory.
-    let radii: Vec<f64> = feet.iter().map(|foot| foot.radius).collect();
-    drop(feet);
     let (starts, incident) = graph.incidence();
-    // The elements around all nodes, one after the other, and where those of each end.
-    let (mut around, mut ends) = (Vec::new(), Vec::with_capacity(graph.cells.len()));
-    for node in 0..graph.cells.len() {
-        let steps = &incident[starts[node] as usize..starts[node + 1] as usize];
-        around.extend(governors(graph, grid, boundary, &sides, node as u32, steps));
-        ends.push(around.len());
-    }
-    drop(incident);
+    // Elements to the left and right of each step.
+    let mut sides = vec![[0; 2]; graph.steps.len()];
+    // Which elements are governors, and their numbers once all are known.
     let mut number = vec![u32::MAX; boundary.len() as usize];
-    around.iter().for_each(|&element| number[element as usize] = 0);
-    let too_large = || EngineError::TooLarge { n_edges: boundary.len() as usize };
-    let mut sites = SiteTable::with_room(0, 0, 0);
-    for (element, number) in (0..).zip(&mut number).filter(|(_, number)| **number == 0) {
-        *number = sites.len();
-        sites.push(&boundary.record(element)).ok_or_else(too_large)?;
-    }
-    sites.shrink();
-    around.iter_mut().for_each(|element| *element = number[*element as usize]);
     let mut keypoints = KeypointTable::with_room(graph.cells.len());
-    let mut start = 0;
-    for (node, (&[x, y], end)) in graph.cells.iter().zip(ends).enumerate() {
+    let mut list = Vec::new();
+    for (node, &[x, y]) in (0..).zip(&graph.cells) {
+        let ends = &starts[node as usize..];
+        let around = &incident[ends[0] as usize..ends[1] as usize];
+        let foot = boundary.foot(x as i32, y as i32);
+        // Steps from earlier nodes are there already.
+        for &step in around.iter().filter(|&&step| graph.steps[step as usize][0] == node) {
+            sides[step as usize] = sides_of(graph, grid, boundary, &foot, step);
+        }
+        governors(&mut list, graph, grid, boundary, &sides, &foot, node, around);
+        list.iter().for_each(|&element| number[element as usize] = 0);
+        // Numbers are in the order of the elements.
+        let smallest = (0..list.len()).min_by_key(|&k| list[k]).unwrap_or(0);
+        list.rotate_left(smallest);
         // The axis outside goes on where the array ends.
         let is_last = x == 0 || y == 0 || x + 1 == grid.columns || y + 1 == grid.rows;
-        let kind = match starts[node + 1] - starts[node] {
+        let kind = match around.len() {
             0 | 1 if is_last && label.side == Side::Exterior => KeypointKind::Clipped,
             0 | 1 => KeypointKind::Tip,
             2 => KeypointKind::Transition,
             _ => KeypointKind::Junction,
         };
-        let list = &mut around[start..end];
-        let smallest = (0..list.len()).min_by_key(|&k| list[k]).unwrap_or(0);
-        list.rotate_left(smallest);
-        let keypoint = Keypoint { position: grid.centre(x, y), radius: radii[node], kind };
+        let keypoint = Keypoint { position: grid.centre(x, y), radius: foot.radius, kind };
         keypoints.push(&keypoint, list.iter().copied());
-        start = end;
     }
-    drop(around);
+    drop(incident);
+    let too_large = || EngineError::TooLarge { n_edges: boundary.len() as usize };
+    let n_sites = number.iter().filter(|number| **number == 0).count();
+    let mut sites = SiteTable::with_room(n_sites, n_sites, 0);
+    for (element, number) in (0..).zip(&mut number).filter(|(_, number)| **number == 0) {
+        *number = sites.len();
+        sites.push(&boundary.record(element)).ok_or_else(too_large)?;
+    }
+    sites.shrink();
+    keypoints.renumber(|element| number[element as usize]);
     let mut paths = PathTable::with_room(graph.steps.len());
     for (&[from, to], sides) in graph.steps.iter().zip(&sides) {
         let [left, right] = sides.map(|element| number[element as usize]);
@@ -342,17 +333,17 @@ fn direction(graph: &PixelGraph, from: u32, to: u32) -> [i32; 2] {
     [x2 as i32 - x1 as i32, y2 as i32 - y1 as i32]
 }
 
-/// The elements to the left and to the right of a step.
+/// The elements to the left and to the right of a step, whose first node has that foot.
 fn sides_of(
     graph: &PixelGraph,
     grid: &Grid,
     boundary: &impl Boundary,
-    feet: &[Foot],
-    [from, to]: [u32; 2],
+    foot: &Foot,
+    step: u32,
 ) -> [u32; 2] {
+    let [from, to] = graph.steps[step as usize];
     let [dx, dy] = direction(graph, from, to);
     let [x, y] = graph.cells[from as usize].map(|at| at as i32);
-    let foot = &feet[from as usize];
     let [width, height] = grid.cell;
     let along = Point::new(f64::from(dx) * width, f64::from(dy) * height);
     let turn = along.cross(foot.way);
@@ -373,46 +364,49 @@ fn sides_of(
     })
 }
 
-/// The elements around a node, counterclockwise.
+/// Lists the elements around a node with that foot, counterclockwise.
+#[expect(clippy::too_many_arguments, reason = "one call, and what it needs is made on the way")]
 fn governors(
+    list: &mut Vec<u32>,
     graph: &PixelGraph,
     grid: &Grid,
     boundary: &impl Boundary,
     sides: &[[u32; 2]],
+    foot: &Foot,
     node: u32,
     around: &[u32],
-) -> Around {
-    let [width, height] = grid.cell;
-    let mut list = Around::new();
-    if around.is_empty() {
-        let [x, y] = graph.cells[node as usize].map(|at| at as i32);
-        list.push(boundary.foot(x, y).element);
-        let turn = if grid.is_mirrored() { -1 } else { 1 };
-        let sides = [[1, 0], [0, turn], [-1, 0], [0, -turn]];
-        list.extend(sides.map(|[dx, dy]| boundary.beside(x + dx, y + dy, [x, y])));
-    } else {
-        let outwards = |&step: &u32| {
-            let [from, to] = graph.steps[step as usize];
-            let [left, right] = sides[step as usize];
-            let (to, left, right) =
-                if from == node { (to, left, right) } else { (from, right, left) };
-            let [dx, dy] = direction(graph, node, to);
-            let way = Point::new(f64::from(dx) * width, f64::from(dy) * height);
-            let angle = if around.len() > 2 { way.y.atan2(way.x) } else { 0.0 };
-            (angle, left, right)
-        };
-        let mut ways: SmallVec<[(f64, u32, u32); 4]> = around.iter().map(outwards).collect();
-        // Two ways have the same order as one.
-        if ways.len() > 2 {
-            ways.sort_by(|a, b| a.0.total_cmp(&b.0));
+) {
+    // The elements to the right and left of a step, seen from here.
+    let seen = |step: u32| {
+        let [left, right] = sides[step as usize];
+        if graph.steps[step as usize][0] == node { [right, left] } else { [left, right] }
+    };
+    list.clear();
+    match *around {
+        [] => {
+            let [x, y] = graph.cells[node as usize].map(|at| at as i32);
+            list.push(foot.element);
+            let turn = if grid.is_mirrored() { -1 } else { 1 };
+            let sides = [[1, 0], [0, turn], [-1, 0], [0, -turn]];
+            list.extend(sides.map(|[dx, dy]| boundary.beside(x + dx, y + dy, [x, y])));
         }
-        for (_, left, right) in ways {
-            list.extend([right, left]);
+        // Two ways have the same order as one.
+        [step] => list.extend(seen(step)),
+        [a, b] => list.extend([seen(a), seen(b)].as_flattened()),
+        _ => {
+            let angle = |&step: &u32| {
+                let [from, to] = graph.steps[step as usize];
+                let [dx, dy] = direction(graph, node, if from == node { to } else { from });
+                let [width, height] = grid.cell;
+                ((f64::from(dy) * height).atan2(f64::from(dx) * width), step)
+            };
+            let mut ways: SmallVec<[(f64, u32); 4]> = around.iter().map(angle).collect();
+            ways.sort_by(|a, b| a.0.total_cmp(&b.0));
+            ways.into_iter().for_each(|(_, step)| list.extend(seen(step)));
         }
     }
     list.dedup();
     while list.len() > 1 && list.first() == list.last() {
         list.pop();
     }
-    list
 }

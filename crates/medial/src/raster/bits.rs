@@ -16,12 +16,6 @@ pub(crate) struct Bits {
 /// Bytes behind the last row, so that words can be read from anywhere.
 const SLACK: usize = 8;
 
-/// The bit of the cell itself in a [window](Bits::window).
-const WINDOW_CENTRE: u16 = 1 << 4;
-
-/// The bits of its eight neighbours.
-pub(crate) const WINDOW_RING: u16 = 0x1ff & !WINDOW_CENTRE;
-
 impl Bits {
     pub fn new(columns: u32, rows: u32) -> Self {
         let stride = (columns as usize).div_ceil(8) + 2;
@@ -55,6 +49,13 @@ impl Bits {
     pub fn set(&mut self, x: i32, y: i32) {
         let byte = self.byte(x, y);
         self.data[byte] |= 1 << (x & 7);
+    }
+
+    /// Sets a bit on a condition, without a branch.
+    #[inline(always)]
+    pub fn set_if(&mut self, x: i32, y: i32, is_set: bool) {
+        let byte = self.byte(x, y);
+        self.data[byte] |= u8::from(is_set) << (x & 7);
     }
 
     #[inline(always)]
@@ -99,13 +100,76 @@ impl Bits {
         three(first) | three(first + self.stride) << 3 | three(first + 2 * self.stride) << 6
     }
 
-    /// Up to 64 bits of a row from a column that is a multiple of 8.
+    /// The four cells around a corner, so many columns and rows from the origin: two bits a row from the upper
+    /// one, each from the left.
     #[inline(always)]
-    fn word(&self, x: u32, y: u32) -> u64 {
+    pub fn block(&self, x: i32, y: i32) -> usize {
+        let shift = (x + 7) & 7;
+        let at = self.byte(x - 1, y - 1);
+        let two = |at: usize| u16::from_le_bytes([self.data[at], self.data[at + 1]]) >> shift & 3;
+        usize::from(two(at) | two(at + self.stride) << 2)
+    }
+
+    /// How many corners the outline of the ones has; two where two cells touch at a corner only.
+    pub fn n_corners(&self) -> usize {
+        // Rows are apart by zeros, so they are one long row.
+        let word =
+            |at: usize| u64::from_le_bytes(self.data[at..at + 8].try_into().unwrap_or_default());
+        let pair = |at: usize| [word(at), word(at) >> 1 | u64::from(self.data[at + 8]) << 63];
+        let corners = |at: usize| {
+            let ([a, b], [c, d]) = (pair(at), pair(at + self.stride));
+            let twice = (a ^ b) & (a ^ c) & !(a ^ d);
+            (a ^ b ^ c ^ d).count_ones() + 2 * twice.count_ones()
+        };
+        let end = self.stride * (self.rows as usize + 1);
+        (0..end).step_by(8).map(|at| corners(at) as usize).sum()
+    }
+
+    /// Up to 64 bits of a row, or of the one behind the last, from a column that is a multiple of 8.
+    #[inline(always)]
+    pub fn word(&self, x: u32, y: u32) -> u64 {
         let at = self.byte(x as i32, y as i32);
         let word = u64::from_le_bytes(self.data[at..at + 8].try_into().unwrap_or_default());
         let left = self.columns - x;
         if left < 64 { word & ((1 << left) - 1) } else { word }
+    }
+
+    /// Sets those of 64 bits of a row, from a column that is a multiple of 8, that are set in a word.
+    #[inline(always)]
+    pub fn set_word(&mut self, x: u32, y: u32, word: u64) {
+        debug_assert!(self.columns - x >= 64 || word >> (self.columns - x) == 0);
+        let at = self.byte(x as i32, y as i32);
+        for (byte, set) in self.data[at..at + 8].iter_mut().zip(word.to_le_bytes()) {
+            *byte |= set;
+        }
+    }
+
+    /// Clears all bits.
+    pub fn clear_all(&mut self) {
+        self.data.fill(0);
+    }
+
+    /// Of 64 cells of a row from a column that is a multiple of 8, those that are set with their eight
+    /// neighbours.
+    #[inline(always)]
+    pub fn surrounded(&self, x: u32, y: u32) -> u64 {
+        // What is set in all three rows, with a bit more at both ends.
+        let at = self.byte(x as i32, y as i32);
+        let [above, below] = [at - self.stride, at + self.stride];
+        let word =
+            |at: usize| u64::from_le_bytes(self.data[at..at + 8].try_into().unwrap_or_default());
+        let set = word(above) & word(at) & word(below);
+        let all =
+            |places: [usize; 3]| places.iter().fold(0xff, |all, &place| all & self.data[place]);
+        let before = u64::from(all([above - 1, at - 1, below - 1]) >> 7);
+        let behind = u64::from(all([above + 8, at + 8, below + 8]) & 1);
+        set & (set << 1 | before) & (set >> 1 | behind << 63)
+    }
+
+    /// A row, 64 bits at a time, each with the column where it starts; nothing stands behind the last one.
+    #[inline(always)]
+    pub fn words(&self, y: u32) -> impl Iterator<Item = (u32, u64)> + '_ {
+        (0..self.columns).step_by(64).map(move |x| (x, self.word(x, y)))
     }
 
     /// The runs of ones in a row: their first column, and the one behind their last.
@@ -115,14 +179,7 @@ impl Bits {
 
     /// The columns of the ones in a row.
     pub fn ones(&self, y: u32) -> impl Iterator<Item = u32> + '_ {
-        (0..self.columns).step_by(64).flat_map(move |x| {
-            let mut word = self.word(x, y);
-            std::iter::from_fn(move || {
-                let place = word.trailing_zeros();
-                word &= word.wrapping_sub(1);
-                (place < 64).then_some(x + place)
-            })
-        })
+        self.words(y).flat_map(|(x, word)| ones(x, word))
     }
 
     /// The number of ones.
@@ -136,11 +193,30 @@ impl Bits {
         &self.data[at..at + (self.columns as usize).div_ceil(8)]
     }
 
-    /// The bytes of a row from eight columns before the first one up to at least one behind the last; also of
-    /// the rows just outside.
-    pub fn framed_row(&self, y: i32) -> &[u8] {
-        let at = self.byte(-8, y);
-        &self.data[at..at + self.stride]
+    /// Columns before the first one in framed rows, which have at least one behind the last, too.
+    pub const LEAD: i32 = 8;
+
+    /// How many words of 64 bits a framed row has.
+    pub fn n_framed_words(&self) -> usize {
+        self.stride.div_ceil(8)
+    }
+
+    /// 64 bits of a framed row, also of those just outside; zeros beyond it.
+    #[inline(always)]
+    pub fn framed_word(&self, y: i32, number: usize) -> u64 {
+        let at = self.byte(-Self::LEAD, y) + 8 * number;
+        let word = u64::from_le_bytes(self.data[at..at + 8].try_into().unwrap_or_default());
+        let n_bytes = self.stride - 8 * number;
+        if n_bytes < 8 { word & ((1 << (8 * n_bytes)) - 1) } else { word }
+    }
+
+    /// Sets those of 64 bits of a framed row that are set in a word.
+    #[inline(always)]
+    pub fn set_framed_word(&mut self, y: i32, number: usize, word: u64) {
+        let at = self.byte(-Self::LEAD, y) + 8 * number;
+        for (byte, set) in self.data[at..at + 8].iter_mut().zip(word.to_le_bytes()) {
+            *byte |= set;
+        }
     }
 
     /// Takes over a row, the first cell in the lowest bit.
@@ -151,6 +227,16 @@ impl Bits {
             self.data[at + n - 1] &= (1 << (self.columns % 8)) - 1;
         }
     }
+}
+
+/// The columns of the ones in a word that starts at a column.
+#[inline(always)]
+pub(crate) fn ones(column: u32, mut word: u64) -> impl Iterator<Item = u32> {
+    std::iter::from_fn(move || {
+        let place = word.trailing_zeros();
+        word &= word.wrapping_sub(1);
+        (place < 64).then_some(column + place)
+    })
 }
 
 /// The runs of ones in a row.
@@ -204,88 +290,11 @@ impl Iterator for Runs<'_> {
     }
 }
 
-/// Whether the cell in the middle of a window can go without changing components and holes.
-///
-/// Its neighbours that are set hold together without it, and of those that are not just one connected set
-/// touches it by a side.
-pub(crate) static SIMPLE: [bool; 512] = simple_table();
-
-/// The eight neighbours in a window, counterclockwise from the right.
-const RING: [u16; 8] = [5, 8, 7, 6, 3, 0, 1, 2];
-
-const fn simple_table() -> [bool; 512] {
-    let mut table = [false; 512];
-    let mut window = 0;
-    while window < 512 {
-        table[window] = is_simple(window as u16);
-        window += 1;
-    }
-    table
-}
-
-const fn is_simple(window: u16) -> bool {
-    let ring = filled_ring(window);
-    let sides = ring[0] as u32 + ring[2] as u32 + ring[4] as u32 + ring[6] as u32;
-    n_runs(&ring) == 1 && sides < 4
-}
-
-/// The eight neighbours in a window, counterclockwise from the right, sides at even places. A corner whose two
-/// sides are set adds nothing to how they hang together, and is set with them.
-pub(crate) const fn filled_ring(window: u16) -> [bool; 8] {
-    let mut ring = [false; 8];
-    let mut k = 0;
-    while k < 8 {
-        ring[k] = window >> RING[k] & 1 != 0;
-        k += 1;
-    }
-    let mut k = 1;
-    while k < 8 {
-        ring[k] = ring[k] || (ring[k - 1] && ring[(k + 1) % 8]);
-        k += 2;
-    }
-    ring
-}
-
-/// How many runs of set neighbours a ring has: connected sets, unless all are set.
-pub(crate) const fn n_runs(ring: &[bool; 8]) -> u32 {
-    let (mut runs, mut k) = (0, 0);
-    while k < 8 {
-        runs += (ring[k] && !ring[(k + 1) % 8]) as u32;
-        k += 1;
-    }
-    runs
-}
-
-/// Whether the cell in the middle of a window is neither an end nor needed.
-///
-/// An end has one neighbour, or two that are beside each other.
-pub(crate) fn can_go(window: u16) -> bool {
-    if !SIMPLE[window as usize] {
-        return false;
-    }
-    let ring = window & WINDOW_RING;
-    match ring.count_ones() {
-        0 | 1 => false,
-        2 => !ENDS.contains(&ring),
-        _ => true,
-    }
-}
-
-/// Pairs of neighbours beside each other.
-const ENDS: [u16; 8] = [
-    1 << 0 | 1 << 1,
-    1 << 1 | 1 << 2,
-    1 << 2 | 1 << 5,
-    1 << 5 | 1 << 8,
-    1 << 8 | 1 << 7,
-    1 << 7 | 1 << 6,
-    1 << 6 | 1 << 3,
-    1 << 3 | 1 << 0,
-];
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::raster::dice::dice;
+    use crate::raster::{Grid, Mask};
 
     fn drawn(rows: &[&str]) -> Bits {
         let mut bits = Bits::new(rows[0].len() as u32, rows.len() as u32);
@@ -330,34 +339,58 @@ mod tests {
         }
     }
 
-    /// Whether the set bits of a window, without the centre, are one set of neighbours by that rule.
-    fn sets(cells: u16, near: impl Fn(i32, i32) -> bool, counts: impl Fn(i32) -> bool) -> usize {
-        let mut left: Vec<i32> = (0..9).filter(|&k| k != 4 && cells >> k & 1 != 0).collect();
-        let mut n = 0;
-        while let Some(first) = left.pop() {
-            let mut set = vec![first];
-            let mut k = 0;
-            while k < set.len() {
-                let (at, rest): (Vec<i32>, Vec<i32>) =
-                    left.iter().partition(|&&other| near(set[k], other));
-                set.extend(at);
-                left = rest;
-                k += 1;
-            }
-            n += usize::from(set.into_iter().any(&counts));
-        }
-        n
-    }
-
     #[test]
-    fn simple_cells_are_those_by_definition() {
-        let apart = |a: i32, b: i32| ((a % 3 - b % 3).abs(), (a / 3 - b / 3).abs());
-        let by_corner = |a, b| apart(a, b).0 <= 1 && apart(a, b).1 <= 1;
-        let by_side = |a, b| apart(a, b).0 + apart(a, b).1 == 1;
-        for window in 0..512_u16 {
-            let inside = sets(window, by_corner, |_| true);
-            let outside = sets(!window & 0x1ff, by_side, |k| by_side(k, 4));
-            assert_eq!(SIMPLE[window as usize], inside == 1 && outside == 1, "{window:09b}");
+    fn words_know_the_neighbours_of_their_cells() {
+        for seed in 1..300 {
+            let mut dice = dice(seed);
+            let (columns, rows, fill) = (dice() as u32 % 150, dice() as u32 % 6, dice() % 101);
+            let grid = Grid::of_image(columns, rows);
+            let bits = Mask::new(grid, |_, _| dice() % 100 < fill).unwrap().bits;
+            let mut n_corners = 0;
+            let mut copy = Bits::new(columns, rows);
+            for y in -1..=rows as i32 {
+                for x in -1..=columns as i32 {
+                    if x < columns as i32 && y < rows as i32 {
+                        let [a, b] = [0, 1].map(|dx| bits.get(x + dx, y));
+                        let [c, d] = [0, 1].map(|dx| bits.get(x + dx, y + 1));
+                        let block = [a, b, c, d]
+                            .iter()
+                            .rev()
+                            .fold(0, |all, &is| all << 1 | usize::from(is));
+                        assert_eq!(bits.block(x + 1, y + 1), block, "{seed}");
+                        n_corners += match [a, b, c, d].iter().filter(|is| **is).count() {
+                            1 | 3 => 1,
+                            2 if a == d => 2,
+                            _ => 0,
+                        };
+                    }
+                    let place = (x + Bits::LEAD) as usize;
+                    let framed = bits.framed_word(y, place / 64) >> (place % 64) & 1 != 0;
+                    assert_eq!(framed, bits.get(x, y), "{seed}: {x} {y}");
+                }
+            }
+            assert_eq!(bits.n_corners(), n_corners, "{seed}");
+            for y in 0..rows {
+                for (column, word) in bits.words(y) {
+                    let surrounded = bits.surrounded(column, y);
+                    for x in column..columns.min(column + 64) {
+                        let is_one = surrounded >> (x - column) & 1 != 0;
+                        assert_eq!(
+                            is_one,
+                            bits.window(x as i32, y as i32) == 0x1ff,
+                            "{seed}: {x} {y}"
+                        );
+                    }
+                    copy.set_word(column, y, word);
+                }
+            }
+            assert_eq!(copy, bits, "{seed}");
+            copy.clear_all();
+            for number in 0..bits.n_framed_words() {
+                (0..rows as i32)
+                    .for_each(|y| copy.set_framed_word(y, number, bits.framed_word(y, number)));
+            }
+            assert_eq!(copy, bits, "{seed}");
         }
     }
 }

@@ -105,7 +105,7 @@ pub fn crack_chains(mask: &Mask) -> Vec<CrackChain> {
     let chain = |contour: u32| {
         let edges = cracks.edges_of(contour);
         let way = |k: usize| {
-            let [from, to] = [k, k + 1].map(|k| edges[k % edges.len()].from);
+            let [from, to] = [k, k + 1].map(|k| edges[k % edges.len()].from());
             [0, 1].map(|axis| i64::from(to[axis]) - i64::from(from[axis]))
         };
         let mut turns = Vec::new();
@@ -114,7 +114,7 @@ pub fn crack_chains(mask: &Mask) -> Vec<CrackChain> {
             turns.resize(turns.len() + (dx.abs() + dy.abs() - 1) as usize, Turn::Straight);
             turns.push(if dx * ey - dy * ex > 0 { Turn::Left } else { Turn::Right });
         }
-        CrackChain { start: edges[0].from, turns }
+        CrackChain { start: edges[0].from(), turns }
     };
     (0..cracks.contours.len() as u32).map(chain).collect()
 }

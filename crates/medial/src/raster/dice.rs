@@ -1,5 +1,5 @@
 /// Pseudo-random numbers for tests (xorshift), so that every run sees the same masks.
-pub(super) fn dice(seed: u64) -> impl FnMut() -> u64 {
+pub(crate) fn dice(seed: u64) -> impl FnMut() -> u64 {
     let mut state = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1;
     move || {
         state ^= state << 13;

@@ -3,7 +3,8 @@
 //! # Contract
 //! Distances are those between centres, cells may be higher than wide, and what lies around the array is
 //! outside. The cell found is one of the nearest; of several, the same one for any number of threads and
-//! any height of bands. Time is linear in the cells, and four bytes are kept for each cell of a band.
+//! any height of bands. Time is linear in the cells, and four bytes are kept for each cell of the shape in a
+//! band, besides a bit and a half for each cell.
 //!
 //! # Method
 //! [MRH00] in two phases. Along columns, the nearest cell outside above or below. Then along each run of a
@@ -18,6 +19,7 @@
 //! quotient of doubles is not off so far that this could change.
 
 use super::Bits;
+use super::ranks::Ranks;
 use std::num::NonZeroUsize;
 use std::ops::Range;
 use std::sync::{Mutex, PoisonError};
@@ -54,27 +56,38 @@ struct Carry {
 /// Rows that a band knows above and below its own, so that neighbours can be asked for.
 const OVERLAP: u32 = 2;
 
-/// A band of rows.
-///
-/// Inside of the shape: columns and rows from there to the nearest cell outside. Outside: 0.
+/// A band of rows: for each cell of the shape the way to the nearest cell outside.
 #[derive(Debug)]
 pub(crate) struct Band {
-    /// The first row that is known.
-    first: i32,
+    /// The rows that are known.
+    rows: Range<u32>,
     aspect: f64,
-    stride: usize,
-    cells: Vec<u32>,
+    /// The places of the cells.
+    ranks: Ranks,
+    offsets: Vec<Offset>,
 }
 
 /// Columns and rows to the nearest cell outside.
-#[inline(always)]
-fn offset(cell: u32) -> (i32, i32) {
-    (i32::from(cell as u16 as i16), i32::from((cell >> 16) as u16 as i16))
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Offset(u32);
+
+impl Offset {
+    #[inline(always)]
+    pub fn both(self) -> (i32, i32) {
+        (i32::from(self.0 as u16 as i16), i32::from((self.0 >> 16) as u16 as i16))
+    }
+
+    /// The square of the distance, in widths of a cell.
+    #[inline(always)]
+    pub fn squared(self, aspect: f64) -> f64 {
+        let (dx, dy) = self.both();
+        f64::from(dx * dx) + aspect * f64::from(dy * dy)
+    }
 }
 
 #[inline(always)]
-fn packed(dx: i32, dy: i32) -> u32 {
-    u32::from(dx as u16) | u32::from(dy as u16) << 16
+fn packed(dx: i32, dy: i32) -> Offset {
+    Offset(u32::from(dx as u16) | u32::from(dy as u16) << 16)
 }
 
 impl<'b> Features<'b> {
@@ -84,8 +97,7 @@ impl<'b> Features<'b> {
         let rows = bits.rows();
         let height = height.max(1);
         let carries = if height < rows { carries(bits, height) } else { Vec::new() };
-        let mut band =
-            Band { first: 0, aspect, stride: bits.columns() as usize + 2, cells: vec![] };
+        let mut band = Band { rows: 0..0, aspect, ranks: Ranks::default(), offsets: Vec::new() };
         let held = if carries.is_empty() {
             band.make(bits, 0..rows, None, threads);
             Held::Whole(band)
@@ -97,7 +109,7 @@ impl<'b> Features<'b> {
 
     /// As many rows as are kept at a time where nothing else is said.
     pub fn usual_height(bits: &Bits) -> u32 {
-        /// Masks of no more cells are kept whole: 256 MB.
+        /// Masks of no more cells are kept whole: at most 270 MB, if all belong to the shape.
         const WHOLE: u64 = 1 << 26;
         /// Cells of a band of larger ones: as few as cost little time.
         const CELLS: u64 = 1 << 24;
@@ -127,7 +139,7 @@ impl<'b> Features<'b> {
     fn make(&self, band: &mut Band, row: u32) {
         let number = row / self.height;
         let rows = around(number, self.height, self.bits.rows());
-        if band.first != rows.start as i32 || band.cells.len() != rows.len() * band.stride {
+        if band.rows != rows {
             let carry = &self.carries[number as usize];
             band.make(self.bits, rows, Some(carry), self.threads);
         }
@@ -152,26 +164,43 @@ impl<'b> Features<'b> {
     /// The square of the distance of a cell inside from the nearest one outside, in widths of a cell.
     #[inline(always)]
     pub fn squared(&self, x: i32, y: i32) -> f64 {
-        squared(self.offset(x, y), self.aspect)
+        let (dx, dy) = self.offset(x, y);
+        packed(dx, dy).squared(self.aspect)
     }
 }
 
 impl Band {
-    /// Columns and rows from a cell inside to the nearest one outside.
+    #[inline(always)]
+    fn at(&self, x: i32, y: i32) -> Offset {
+        let (place, is_inside) = self.ranks.rank(x, y);
+        if is_inside { self.offsets[place] } else { Offset::default() }
+    }
+
+    /// Columns and rows from a cell inside to the nearest one outside; from one outside that is 0.
     #[inline(always)]
     pub fn offset(&self, x: i32, y: i32) -> (i32, i32) {
-        offset(self.cells[(y - self.first) as usize * self.stride + (x + 1) as usize])
+        self.at(x, y).both()
     }
 
     /// The square of the distance of a cell inside from the nearest one outside, in widths of a cell.
     #[inline(always)]
     pub fn squared(&self, x: i32, y: i32) -> f64 {
-        squared(self.offset(x, y), self.aspect)
+        self.at(x, y).squared(self.aspect)
+    }
+
+    /// Copies what is known of the cells of the shape in a row, each to its column.
+    pub fn copy_row(&self, bits: &Bits, y: u32, to: &mut [Offset]) {
+        let mut next = self.ranks.before_row(y as i32);
+        for (from, end) in bits.runs(y) {
+            let n = (end - from) as usize;
+            to[from as usize..end as usize].copy_from_slice(&self.offsets[next..next + n]);
+            next += n;
+        }
     }
 
     /// Whether it knows a row.
     fn has(&self, y: i32) -> bool {
-        y >= self.first && ((y - self.first) as usize) < self.cells.len() / self.stride
+        self.rows.contains(&(y as u32))
     }
 
     /// Finds the nearest cells of other rows.
@@ -182,38 +211,42 @@ impl Band {
         carry: Option<&Carry>,
         threads: NonZeroUsize,
     ) {
-        let Self { aspect, stride, .. } = *self;
-        self.first = rows.start as i32;
-        let n_rows = rows.len();
-        self.cells.clear();
-        self.cells.resize(stride * n_rows, 0);
-        along_columns(bits, &mut self.cells, stride, rows.clone(), carry);
-        let shares = threads.get().min(n_rows.max(1));
-        let height = n_rows.div_ceil(shares).max(1);
-        let work = |first: u32, share: &mut [u32]| {
+        let aspect = self.aspect;
+        self.rows = rows.clone();
+        self.ranks = Ranks::new(bits, rows.start as i32, rows.len());
+        for y in rows.clone() {
+            for number in 0..bits.n_framed_words() {
+                self.ranks.push(bits.framed_word(y as i32, number));
+            }
+        }
+        self.offsets.clear();
+        along_columns(bits, &mut self.offsets, &self.ranks, rows.clone(), carry);
+        let shares = threads.get().min(rows.len().max(1));
+        let height = rows.len().div_ceil(shares).max(1);
+        let work = |rows: Range<u32>, mut share: &mut [Offset]| {
             let mut scratch = Envelope::default();
-            for (y, row) in (first..).zip(share.chunks_exact_mut(stride)) {
-                bits.runs(y).for_each(|(from, to)| {
-                    // With the cells before and behind it.
-                    scratch.along(&mut row[from as usize..to as usize + 2], aspect);
-                });
+            for y in rows {
+                for (from, to) in bits.runs(y) {
+                    let (run, rest) = share.split_at_mut((to - from) as usize);
+                    scratch.along(run, aspect);
+                    share = rest;
+                }
             }
         };
         if shares == 1 {
-            work(rows.start, &mut self.cells);
-        } else {
-            std::thread::scope(|scope| {
-                for (k, share) in (0..).zip(self.cells.chunks_mut(height * stride)) {
-                    scope.spawn(move || work(rows.start + k * height as u32, share));
-                }
-            });
+            return work(rows, &mut self.offsets);
         }
+        let (ranks, mut rest) = (&self.ranks, &mut self.offsets[..]);
+        std::thread::scope(|scope| {
+            for start in rows.clone().step_by(height) {
+                let end = rows.end.min(start + height as u32);
+                let n = ranks.before_row(end as i32) - ranks.before_row(start as i32);
+                let (share, others) = std::mem::take(&mut rest).split_at_mut(n);
+                rest = others;
+                scope.spawn(move || work(start..end, share));
+            }
+        });
     }
-}
-
-#[inline(always)]
-fn squared((dx, dy): (i32, i32), aspect: f64) -> f64 {
-    f64::from(dx * dx) + aspect * f64::from(dy * dy)
 }
 
 /// The rows that a band knows.
@@ -229,23 +262,13 @@ fn carries(bits: &Bits, height: u32) -> Vec<Carry> {
     let known: Vec<Range<u32>> = (0..n).map(|number| around(number, height, rows)).collect();
     let mut carries: Vec<Carry> =
         known.iter().map(|_| Carry { above: vec![0; columns], below: vec![0; columns] }).collect();
-    // As many rows as there can be fit into 16 bits.
-    let further = |counts: &mut [u16], y: u32| {
-        let mut last = 0;
-        for (from, to) in bits.runs(y) {
-            counts[last..from as usize].fill(0);
-            counts[from as usize..to as usize].iter_mut().for_each(|count| *count += 1);
-            last = to as usize;
-        }
-        counts[last..].fill(0);
-    };
     let mut counts = vec![0; columns];
     let mut next = known.iter().zip(&mut carries).peekable();
     for y in 0..rows {
         while let Some((_, carry)) = next.next_if(|(known, _)| known.start == y) {
             carry.above.copy_from_slice(&counts);
         }
-        further(&mut counts, y);
+        further(bits, &mut counts, y);
     }
     counts.fill(0);
     let mut next = known.iter().zip(&mut carries).rev().peekable();
@@ -253,59 +276,55 @@ fn carries(bits: &Bits, height: u32) -> Vec<Carry> {
         while let Some((_, carry)) = next.next_if(|(known, _)| known.end == y + 1) {
             carry.below.copy_from_slice(&counts);
         }
-        further(&mut counts, y);
+        further(bits, &mut counts, y);
     }
     carries
 }
 
-/// Puts into each cell inside of some rows how many rows the nearest one outside of its column is away, upwards
-/// as a negative number.
+/// Goes on to a row: how many cells of the shape are in each column, since the last one outside. As many as there
+/// can be fit into 16 bits.
+fn further(bits: &Bits, counts: &mut [u16], y: u32) {
+    let mut last = 0;
+    for (from, to) in bits.runs(y) {
+        counts[last..from as usize].fill(0);
+        counts[from as usize..to as usize].iter_mut().for_each(|count| *count += 1);
+        last = to as usize;
+    }
+    counts[last..].fill(0);
+}
+
+/// Lists for each cell of the shape in some rows how many rows the nearest one outside of its column is away,
+/// upwards as a negative number.
 fn along_columns(
     bits: &Bits,
-    cells: &mut [u32],
-    stride: usize,
+    cells: &mut Vec<Offset>,
+    ranks: &Ranks,
     rows: Range<u32>,
     carry: Option<&Carry>,
 ) {
-    for (at, y) in rows.clone().enumerate() {
-        let (above, own) = cells.split_at_mut(at * stride);
-        let above = above.rchunks_exact(stride).next();
+    let none = || vec![0; bits.columns() as usize];
+    let mut counts = carry.map_or_else(none, |carry| carry.above.clone());
+    cells.reserve_exact(ranks.len());
+    for y in rows.clone() {
+        further(bits, &mut counts, y);
         for (from, to) in bits.runs(y) {
-            let (columns, span) = (from as usize..to as usize, from as usize + 1..to as usize + 1);
-            let own = own[span.clone()].iter_mut();
-            match (above, carry) {
-                // Cells outside hold 0.
-                (Some(above), _) => {
-                    own.zip(&above[span]).for_each(|(cell, above)| *cell = above + 1);
-                }
-                (None, Some(carry)) => own
-                    .zip(&carry.above[columns])
-                    .for_each(|(cell, &above)| *cell = u32::from(above) + 1),
-                (None, None) => own.for_each(|cell| *cell = 1),
-            }
+            let run = &counts[from as usize..to as usize];
+            cells.extend(run.iter().map(|&count| Offset(count.into())));
         }
     }
-    let mut below = vec![0_u32; stride];
-    let mut down = vec![0_u32; stride];
-    if let Some(carry) = carry {
-        down[1..=carry.below.len()]
-            .iter_mut()
-            .zip(&carry.below)
-            .for_each(|(to, &from)| *to = from.into());
-    }
-    for (at, y) in rows.enumerate().rev() {
-        let row = &mut cells[at * stride..][..stride];
-        std::mem::swap(&mut below, &mut down);
-        down.fill(0);
+    let mut counts = carry.map_or_else(none, |carry| carry.below.clone());
+    for y in rows.rev() {
+        further(bits, &mut counts, y);
+        let mut next = ranks.before_row(y as i32);
         for (from, to) in bits.runs(y) {
-            let span = from as usize + 1..to as usize + 1;
-            let own = row[span.clone()].iter_mut().zip(&mut down[span.clone()]);
-            for ((cell, down), below) in own.zip(&below[span]) {
-                *down = below + 1;
-                let rows = if *cell <= *down { -(*cell as i32) } else { *down as i32 };
+            let run = &counts[from as usize..to as usize];
+            for (cell, &below) in cells[next..].iter_mut().zip(run) {
+                let (above, below) = (cell.0 as i32, i32::from(below));
+                let rows = if above <= below { -above } else { below };
                 // Farther than any cell is from the outside where that matters.
-                *cell = rows.clamp(-FAR, FAR) as u32;
+                *cell = Offset(rows.clamp(-FAR, FAR) as u32);
             }
+            next += run.len();
         }
     }
 }
@@ -330,21 +349,21 @@ struct Envelope {
 }
 
 impl Envelope {
-    /// Finds the nearest cells for a run with the cells before and behind it; the run holds rows to the
-    /// nearest cell of its column.
-    fn along(&mut self, run: &mut [u32], aspect: f64) {
-        let last = run.len() - 1;
-        if last == 2 {
+    /// Finds the nearest cells for a run, which holds rows to the nearest cell of its column.
+    fn along(&mut self, run: &mut [Offset], aspect: f64) {
+        // Columns are counted from the cell before the run.
+        let last = run.len() + 1;
+        if let [cell] = run {
             // One cell, with one outside on both sides.
-            let rows = run[1] as i32;
+            let rows = cell.0 as i32;
             let is_nearer = aspect * f64::from(rows * rows) < 1.0;
-            run[1] = if is_nearer { packed(0, rows) } else { packed(-1, 0) };
+            *cell = if is_nearer { packed(0, rows) } else { packed(-1, 0) };
             return;
         }
         let stack = &mut self.parabolas;
         stack.clear();
         stack.push(Parabola { column: 0, rows: 0, height: 0.0, first: 1 });
-        let top_column = |column: usize| if column == last { 0 } else { run[column] as i32 };
+        let top_column = |column: usize| if column == last { 0 } else { run[column - 1].0 as i32 };
         for column in 1..=last {
             let rows = top_column(column);
             let height = aspect * f64::from(rows * rows);
@@ -368,7 +387,7 @@ impl Envelope {
         let mut end = last as i32;
         for parabola in stack.iter().rev() {
             for at in parabola.first.max(1)..end {
-                run[at as usize] = packed(parabola.column - at, parabola.rows);
+                run[at as usize - 1] = packed(parabola.column - at, parabola.rows);
             }
             end = parabola.first;
         }

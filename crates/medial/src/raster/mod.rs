@@ -8,7 +8,7 @@
 mod bits;
 mod crack_code;
 #[cfg(test)]
-mod dice;
+pub(crate) mod dice;
 mod digitise;
 mod disks;
 mod features;
@@ -17,19 +17,22 @@ mod margin;
 mod mask;
 mod outline;
 mod pixel_graph;
+mod ranks;
 mod topology;
+mod windows;
 
-pub(crate) use bits::{Bits, SIMPLE, WINDOW_RING, can_go, filled_ring, n_runs};
+pub(crate) use bits::{Bits, ones};
 pub use crack_code::{CrackChain, CrackError, CrackWalk, Turn, crack_chains, mask_of_cracks};
 pub use digitise::{
     DigitiseError, boundary_cells, default_cell, digitise, grid_around, line_cells,
 };
 pub(crate) use disks::disk_cells;
 pub use disks::mask_of_disks;
-pub(crate) use features::{Band, Features};
+pub(crate) use features::{Band, Features, Offset};
 pub use grid::Grid;
 pub use mask::{Mask, MaskError};
 pub use outline::outline;
 pub(crate) use outline::{Contour, Cracks, Side};
 pub use pixel_graph::PixelGraph;
 pub use topology::{Topology, topology};
+pub(crate) use windows::{SIMPLE, WINDOW_RING, can_go, filled_ring, n_runs};

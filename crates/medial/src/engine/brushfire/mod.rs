@@ -159,8 +159,7 @@ impl<'m> Burnt<'m> {
     #[must_use]
     pub fn graph(&self) -> PixelGraph {
         let mut graph = PixelGraph::new(self.cells());
-        let radii = self.remains.distances(&graph);
-        graph.join_junctions(|node| radii[node as usize]);
+        graph.join_junctions(|cell| self.remains.distance(cell));
         graph
     }
 

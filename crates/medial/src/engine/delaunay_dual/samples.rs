@@ -77,7 +77,7 @@ impl Samples {
         }
         // Halves of halves, so that all coordinates are short binary fractions. Cracks are at most 1 apart.
         let pieces = (1.0 / spacing).ceil().max(1.0).log2().ceil().exp2();
-        let n = cracks.edge_of.len() as f64 * pieces;
+        let n = cracks.n_cracks as f64 * pieces;
         if n > MOST {
             return Err(EngineError::Samples { samples: n, spacing });
         }
@@ -88,13 +88,13 @@ impl Samples {
             middles.clear();
             let number = cracks.contours[contour as usize].first;
             for (number, edge) in (number..).zip(cracks.edges_of(contour)) {
-                let to = cracks.end_of(number);
-                let ways = [0, 1].map(|k| f64::from(to[k]) - f64::from(edge.from[k]));
+                let (from, to) = (edge.from(), cracks.end_of(number));
+                let ways = [0, 1].map(|k| f64::from(to[k]) - f64::from(from[k]));
                 // All of these are short binary fractions.
                 let steps = ways.map(|way| if way == 0.0 { 0.0 } else { way.signum() });
                 for k in 0..(ways[0].abs() + ways[1].abs()) as u32 {
                     let along = f64::from(k) + 0.5;
-                    let middle = [0, 1].map(|k| f64::from(edge.from[k]) + steps[k] * along);
+                    let middle = [0, 1].map(|k| f64::from(from[k]) + steps[k] * along);
                     middles.push((middle, number));
                 }
             }

@@ -71,13 +71,12 @@ impl<'m> Skeleton<'m> {
         watch.check_now()?;
         // Without a threshold, whatever lies between two feet.
         let threshold = residual.map_or(-0.5, |residual| residual as f32);
-        let mut search = Search::new(bits.columns(), threshold);
+        let mut search = Search::new(bits, threshold);
         let mut kept = Bits::new(bits.columns(), bits.rows());
         let mut thinning = Thinning::new(bits);
         for rows in features.bands() {
             features.with_band(rows.start, |band| {
-                let found = search.rows(bits, band, &cracks, aspect, rows.clone());
-                found.iter().for_each(|cell| kept.set(cell.x as i32, cell.y as i32));
+                search.rows(bits, band, &cracks, aspect, rows.clone(), &mut kept);
                 thinning.band(&kept, band, rows);
             });
             watch.check_now()?;
@@ -150,10 +149,9 @@ impl<'m> Skeleton<'m> {
         if self.complete {
             return graph;
         }
-        let radii = self.remains.distances(&graph);
-        graph.drop_stubs(self.remains.mask.grid().aspect(), |node| radii[node as usize]);
-        let radii = self.remains.distances(&graph);
-        graph.join_junctions(|node| radii[node as usize]);
+        let distance = |cell| self.remains.distance(cell);
+        graph.drop_stubs(self.remains.mask.grid().aspect(), distance);
+        graph.join_junctions(distance);
         graph
     }
 

@@ -6,22 +6,19 @@ use std::collections::BinaryHeap;
 use std::ops::Range;
 
 use super::medial_cells::MedialCell;
-use crate::raster::{Band, Bits, SIMPLE, WINDOW_RING, can_go};
+use crate::raster::{Band, Bits, SIMPLE, WINDOW_RING, can_go, ones};
 
 /// Steps of the distance within which cells go in the order in which they became removable.
 const STEPS_PER_CELL: f32 = 4.0;
 
-/// The eight neighbours of a cell, by their bits in a window.
-const NEIGHBOURS: [(u16, i32, i32); 8] = [
-    (1 << 0, -1, -1),
-    (1 << 1, 0, -1),
-    (1 << 2, 1, -1),
-    (1 << 3, -1, 0),
-    (1 << 5, 1, 0),
-    (1 << 6, -1, 1),
-    (1 << 7, 0, 1),
-    (1 << 8, 1, 1),
-];
+/// Those neighbours of a cell whose bits are set in a window.
+#[inline(always)]
+fn neighbours((x, y): (i32, i32), window: u16) -> impl Iterator<Item = (i32, i32)> {
+    /// Columns and rows to each cell of a window.
+    const WAYS: [(i32, i32); 9] =
+        [(-1, -1), (0, -1), (1, -1), (-1, 0), (0, 0), (1, 0), (-1, 1), (0, 1), (1, 1)];
+    ones(0, window.into()).map(move |k| (x + WAYS[k as usize].0, y + WAYS[k as usize].1))
+}
 
 /// A cell as its column and row.
 fn packed(x: i32, y: i32) -> u32 {
@@ -39,7 +36,7 @@ const BELOW: u16 = 0b111 << 6;
 #[derive(Debug)]
 pub(super) struct Thinning {
     shape: Bits,
-    /// Cells that wait for their turn.
+    /// Cells that wait for their turn, and those to be kept.
     waits: Bits,
     /// The same by distance. Each comes in with the first of its neighbours that goes, and is asked once it is
     /// its turn: then those nearer to the boundary are gone.
@@ -92,13 +89,13 @@ impl Thinning {
             queues[at].push(packed(x, y));
         };
         for y in rows.clone() {
-            for (from, to) in shape.runs(y) {
-                let y = y as i32;
-                for x in from as i32..to as i32 {
-                    if shape.window(x, y) & WINDOW_RING != WINDOW_RING && !kept.get(x, y) {
-                        waits.set(x, y);
-                        push(queues, level(x, y), x, y);
-                    }
+            for (column, word) in shape.words(y) {
+                let kept = kept.word(column, y);
+                let outer = word & !shape.surrounded(column, y) & !kept;
+                waits.set_word(column, y, outer | kept);
+                for x in ones(column, outer) {
+                    let (x, y) = (x as i32, y as i32);
+                    push(queues, level(x, y), x, y);
                 }
             }
         }
@@ -115,16 +112,13 @@ impl Thinning {
                     continue;
                 }
                 shape.clear(x, y);
-                let mut free = window & WINDOW_RING & !kept.window(x, y) & !waits.window(x, y);
+                let mut free = window & WINDOW_RING & !waits.window(x, y);
                 if y + 1 == end {
                     free &= !BELOW;
                 }
-                for (bit, dx, dy) in NEIGHBOURS {
-                    if free & bit != 0 {
-                        let (u, v) = (x + dx, y + dy);
-                        waits.set(u, v);
-                        push(queues, level(u, v).max(now), u, v);
-                    }
+                for (u, v) in neighbours((x, y), free) {
+                    waits.set(u, v);
+                    push(queues, level(u, v).max(now), u, v);
                 }
             }
             queues[now] = Vec::new();
@@ -132,9 +126,11 @@ impl Thinning {
         }
         queues.clear();
         for y in rows {
-            for x in shape.ones(y).filter(|&x| !kept.get(x as i32, y as i32)) {
-                let (x, y) = (x as i32, y as i32);
-                left.0.push((packed(x, y), band.squared(x, y) as f32));
+            for (column, word) in shape.words(y) {
+                for x in ones(column, word & !kept.word(column, y)) {
+                    let (x, y) = (x as i32, y as i32);
+                    left.0.push((packed(x, y), band.squared(x, y) as f32));
+                }
             }
         }
     }
@@ -144,6 +140,7 @@ impl Thinning {
 /// first: those of the least residual, then of the least distance.
 pub(super) fn thin_further(thinning: Thinning, medial: &[MedialCell]) -> Bits {
     let Thinning { mut shape, mut waits, left, .. } = thinning;
+    waits.clear_all();
     // Neither is negative, so their bits are in their order.
     let quality = |residual: f32, squared: f32| {
         u64::from(residual.to_bits()) << 32 | u64::from(squared.to_bits())
@@ -157,9 +154,13 @@ pub(super) fn thin_further(thinning: Thinning, medial: &[MedialCell]) -> Bits {
     let mut first: Vec<(u64, u32)> = Vec::new();
     let (mut next_medial, mut next_left) = (medial.iter().peekable(), left.0.iter().peekable());
     for y in 0..shape.rows() {
-        for x in shape.ones(y).filter(|&x| can_go(shape.window(x as i32, y as i32))) {
-            let cell = packed(x as i32, y as i32);
-            waits.set(x as i32, y as i32);
+        for x in shape.ones(y) {
+            let (column, row) = (x as i32, y as i32);
+            if !can_go(shape.window(column, row)) {
+                continue;
+            }
+            let cell = packed(column, row);
+            waits.set(column, row);
             while next_medial.next_if(|medial| place(medial) < cell).is_some() {}
             while next_left.next_if(|&&(at, _)| at < cell).is_some() {}
             let quality = match (next_medial.peek(), next_left.peek()) {
@@ -172,7 +173,7 @@ pub(super) fn thin_further(thinning: Thinning, medial: &[MedialCell]) -> Bits {
             first.push((quality, cell));
         }
     }
-    first.sort_unstable();
+    sort(&mut first);
     // What cannot go in its turn may be able to once a neighbour is gone.
     let mut again = BinaryHeap::new();
     let mut first = first.into_iter().peekable();
@@ -192,8 +193,7 @@ pub(super) fn thin_further(thinning: Thinning, medial: &[MedialCell]) -> Bits {
         }
         shape.clear(x, y);
         let free = window & WINDOW_RING & !waits.window(x, y);
-        for (_, dx, dy) in NEIGHBOURS.into_iter().filter(|(bit, ..)| free & bit != 0) {
-            let (x, y) = (x + dx, y + dy);
+        for (x, y) in neighbours((x, y), free) {
             if can_go(shape.window(x, y)) {
                 let cell = packed(x, y);
                 waits.set(x, y);
@@ -202,4 +202,55 @@ pub(super) fn thin_further(thinning: Thinning, medial: &[MedialCell]) -> Bits {
         }
     }
     shape
+}
+
+/// Sorts cells by their quality; those of the same one stay in their order.
+fn sort(cells: &mut Vec<(u64, u32)>) {
+    /// So many are sorted faster by comparing them.
+    const FEW: usize = 256;
+    if cells.len() < FEW {
+        return cells.sort_by_key(|&(quality, _)| quality);
+    }
+    // How often each value of each byte occurs; a byte that has one value says nothing.
+    let mut counts = vec![[0_u32; 256]; 8];
+    for (quality, _) in &*cells {
+        let bytes = quality.to_le_bytes();
+        counts.iter_mut().zip(bytes).for_each(|(counts, byte)| counts[usize::from(byte)] += 1);
+    }
+    let mut other = vec![(0, 0); cells.len()];
+    for (place, counts) in counts.iter_mut().enumerate() {
+        if counts.iter().any(|&count| count as usize == cells.len()) {
+            continue;
+        }
+        let mut first = 0;
+        for count in &mut *counts {
+            first += std::mem::replace(count, first);
+        }
+        for &cell in &*cells {
+            let next = &mut counts[usize::from(cell.0.to_le_bytes()[place])];
+            other[*next as usize] = cell;
+            *next += 1;
+        }
+        std::mem::swap(cells, &mut other);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::raster::dice::dice;
+
+    #[test]
+    fn cells_are_sorted_by_quality_and_keep_their_order() {
+        for seed in 1..40 {
+            let mut dice = dice(seed);
+            let n = dice() as u32 % 900;
+            let most = 1 << (dice() % 50);
+            let mut cells: Vec<(u64, u32)> = (0..n).map(|cell| (dice() % most, cell)).collect();
+            let mut expected = cells.clone();
+            sort(&mut cells);
+            expected.sort_unstable();
+            assert_eq!(cells, expected, "{seed}");
+        }
+    }
 }

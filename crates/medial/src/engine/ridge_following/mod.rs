@@ -422,14 +422,9 @@ impl Ridges {
             RidgeThinning::FiveByFive => graph.steps.clear(),
             RidgeThinning::Queue => {
                 // One node for each junction.
-                let radius = |graph: &PixelGraph| -> Vec<f64> {
-                    let width = grid.cell[0].abs();
-                    graph.cells.iter().map(|&cell| medial.radius(cell) / width).collect()
-                };
-                let radii = radius(&graph);
-                graph.drop_stubs(grid.aspect(), |node| radii[node as usize]);
-                let radii = radius(&graph);
-                graph.join_junctions(|node| radii[node as usize]);
+                let radius = |cell| medial.radius(cell) / grid.cell[0].abs();
+                graph.drop_stubs(grid.aspect(), radius);
+                graph.join_junctions(radius);
             }
             RidgeThinning::Report | RidgeThinning::Full => {}
         }

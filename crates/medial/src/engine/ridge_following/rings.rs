@@ -102,7 +102,7 @@ fn circumradius([a, b, c]: [Point; 3]) -> f64 {
 pub(super) fn of_mask(cracks: &Cracks, grid: &Grid) -> Vec<Ring> {
     let ring = |(number, contour): (u32, &Contour)| {
         let edges = cracks.edges_of(number);
-        let corners: Vec<[u32; 2]> = edges.iter().map(|edge| edge.from).collect();
+        let corners: Vec<[u32; 2]> = edges.iter().map(|edge| edge.from()).collect();
         let mut vertices = cut_steps(&corners);
         if vertices.len() < 3 {
             vertices = corners.iter().map(|&corner| [corner; 2]).collect();
