@@ -28,11 +28,9 @@ impl DisjointSets {
         Self { below: (0..n as u32).collect() }
     }
 
-    /// Adds a number, in a set of its own.
-    pub fn push(&mut self) -> u32 {
-        let number = self.below.len() as u32;
-        self.below.push(number);
-        number
+    /// Adds the next number, in a set of its own.
+    pub fn push(&mut self) {
+        self.below.push(self.below.len() as u32);
     }
 
     /// The least number of the set of a number.

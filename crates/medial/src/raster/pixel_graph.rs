@@ -9,8 +9,8 @@
 //! full block of two by two cells the upper one is left out, as a block is no hole. Block after block from the
 //! first row on, that takes away one side that belongs to no other block, so nothing else changes.
 
-use super::topology::{find, join};
 use super::{Bits, Mask};
+use crate::geom::DisjointSets;
 
 /// Cells as nodes, and steps between them.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -160,11 +160,11 @@ impl PixelGraph {
         let cell = |k: u32| self.cells[nodes[k as usize] as usize];
         let n = nodes.len() as u32;
         // Sets of junctions with their boxes, and whether one is around something.
-        let mut parent: Vec<u32> = (0..n).collect();
+        let mut sets = DisjointSets::new(nodes.len());
         let mut boxes: Vec<[[u32; 2]; 2]> = (0..n).map(|k| [cell(k); 2]).collect();
         let mut stays = vec![false; nodes.len()];
         for &ends in &links {
-            let [a, b] = ends.map(|node| find(&mut parent, number[node as usize]));
+            let [a, b] = ends.map(|node| sets.first(number[node as usize]));
             if a == b {
                 stays[a as usize] = true;
                 continue;
@@ -176,11 +176,11 @@ impl PixelGraph {
                 continue;
             }
             let is_around = stays[a as usize] || stays[b as usize];
-            join(&mut parent, a, b);
+            sets.join(a, b);
             stays[a.min(b) as usize] = is_around;
             boxes[a.min(b) as usize] = [low, high];
         }
-        let set: Vec<u32> = (0..n).map(|k| find(&mut parent, k)).collect();
+        let set: Vec<u32> = (0..n).map(|k| sets.first(k)).collect();
         // Twice how far a node is from the middle of its set.
         let off = |k: u32| {
             let [low, high] = boxes[set[k as usize] as usize];

@@ -1,4 +1,5 @@
 use super::{Bits, Mask};
+use crate::geom::DisjointSets;
 
 /// How a mask hangs together.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -38,16 +39,15 @@ pub(super) fn of_bits(bits: &Bits) -> Topology {
 /// The connected sets of the runs of all rows; runs of neighbouring rows touch if they overlap after the
 /// upper one grew by so many cells.
 fn sets(rows: u32, reach: u32, runs_of: impl Fn(u32, &mut Vec<(u32, u32)>)) -> u32 {
-    let mut parent: Vec<u32> = Vec::new();
-    let mut joined = 0;
+    let mut sets = DisjointSets::default();
     let [mut above, mut runs] = [const { Vec::new() }; 2];
     for y in 0..rows {
         std::mem::swap(&mut above, &mut runs);
         runs.clear();
         runs_of(y, &mut runs);
-        let first_above = parent.len() as u32 - above.len() as u32;
-        let first = parent.len() as u32;
-        parent.extend((0..runs.len() as u32).map(|k| first + k));
+        let first = sets.len() as u32;
+        let first_above = first - above.len() as u32;
+        runs.iter().for_each(|_| sets.push());
         let mut k = 0;
         for (own, &(from, to)) in (first..).zip(&runs) {
             while k < above.len() && above[k].1 + reach <= from {
@@ -55,28 +55,12 @@ fn sets(rows: u32, reach: u32, runs_of: impl Fn(u32, &mut Vec<(u32, u32)>)) -> u
             }
             let mut other = k;
             while other < above.len() && above[other].0 < to + reach {
-                joined += u32::from(join(&mut parent, own, first_above + other as u32));
+                sets.join(own, first_above + other as u32);
                 other += 1;
             }
         }
     }
-    parent.len() as u32 - joined
-}
-
-/// The first number of a set.
-pub(super) fn find(parent: &mut [u32], mut k: u32) -> u32 {
-    while parent[k as usize] != k {
-        parent[k as usize] = parent[parent[k as usize] as usize];
-        k = parent[k as usize];
-    }
-    k
-}
-
-/// Makes one set of two, with the smaller first number; whether they were not one before.
-pub(super) fn join(parent: &mut [u32], a: u32, b: u32) -> bool {
-    let (a, b) = (find(parent, a), find(parent, b));
-    parent[a.max(b) as usize] = a.min(b);
-    a != b
+    sets.count() as u32
 }
 
 #[cfg(test)]
