@@ -31,6 +31,8 @@ pub struct AxisDocument {
     pub id: Option<Json>,
     /// The axis.
     pub axis: MedialAxis,
+    /// How far its shape is at most from what it was made of, in units of the input, if that is known.
+    pub error: Option<f64>,
 }
 
 #[derive(Serialize, Deserialize)]
@@ -231,7 +233,7 @@ pub fn polygons<'a>(
     let feature = move |document: Result<AxisDocument, Error>| {
         let (feature, id, axis) = match document {
             Ok(AxisDocument { axis, .. }) if axis.side == Side::Exterior => return None,
-            Ok(AxisDocument { feature, id, axis }) => (feature, id, axis),
+            Ok(AxisDocument { feature, id, axis, .. }) => (feature, id, axis),
             Err(error) => {
                 let feature =
                     if let Error::Document { feature, .. } = error { feature } else { next };
@@ -336,7 +338,7 @@ fn read_line(text: &str, line: &str) -> Result<AxisDocument, Error> {
         if said == is { Ok(()) } else { Err(format!("its governors make a {is}, not a {said}")) }
     })?;
     let id = document.id.map(ToOwned::to_owned);
-    Ok(AxisDocument { feature: document.feature, id, axis })
+    Ok(AxisDocument { feature: document.feature, id, axis, error: None })
 }
 
 fn site(record: &SiteRecord) -> Result<Site, String> {

@@ -27,11 +27,20 @@ pub(crate) const RELATIVE_TOLERANCE: f64 = 1e-4;
 /// The tolerance for an axis: 1e-4 of the longer side of its box.
 ///
 /// The box around the governors and the keypoints is the box of the shape, but for exterior axes; there
-/// [`domain_tolerance`] is the one to take.
+/// [`domain_tolerance`] is the one to take. Governors of a sampled axis may be no part of the shape, so there it
+/// is the box of its disks, too.
 #[must_use]
 pub fn default_tolerance(axis: &MedialAxis) -> f64 {
-    axis.bounds()
-        .map_or(0.0, |(low, high)| RELATIVE_TOLERANCE * f64::max(high.x - low.x, high.y - low.y))
+    let Some((mut low, mut high)) = axis.bounds() else { return 0.0 };
+    if axis.accuracy != Accuracy::Exact {
+        for Keypoint { position, radius, .. } in axis.keypoints() {
+            let reach = Point::new(radius, radius);
+            let (least, greatest) = (position - reach, position + reach);
+            low = Point::new(low.x.min(least.x), low.y.min(least.y));
+            high = Point::new(high.x.max(greatest.x), high.y.max(greatest.y));
+        }
+    }
+    RELATIVE_TOLERANCE * f64::max(high.x - low.x, high.y - low.y)
 }
 
 /// The tolerance for any axis of a domain: 1e-4 of the longer side of its box.

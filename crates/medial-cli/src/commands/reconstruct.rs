@@ -15,7 +15,7 @@ use medial::engine::{EngineError, interior};
 use medial::geom::Point;
 use medial::ops::{
     Compressed, CompressedMask, Outline, boundary_distance, disks, polygons_of, signed_area,
-    tangent_polygons, union_of_disks, without_crossings,
+    tangent_polygons, union_of_disks, union_of_linked_disks, without_crossings,
 };
 use medial::raster::outline;
 use medial_io::axis_document::AxisDocument;
@@ -26,6 +26,9 @@ use std::ops::ControlFlow;
 
 /// Points along the axis of a feature, at most.
 const MOST_POINTS: f64 = 1e6;
+
+/// What drawing may add to the error of a compressed shape, as a share of it.
+const ARCS: f64 = 0.125;
 
 const COLUMNS: &[&str] = &["method", "error", "area"];
 
@@ -72,7 +75,7 @@ pub fn run(args: &'static ReconstructArgs) -> Result<Status, Failure> {
                 None => axis,
             };
             let original = boundary(domain);
-            Ok(vec![rebuilt(args, &axis, Some(&original))?])
+            Ok(vec![rebuilt(args, &axis, Some(&original), 0.0)?])
         })
     })
 }
@@ -194,7 +197,9 @@ fn of_documents(
 
 fn of_document(args: &ReconstructArgs, format: Format, document: AxisDocument) -> Document {
     let original = polygons_of(&document.axis).ok().map(|polygons| polygons.concat());
-    match rebuilt(args, &document.axis, original.as_ref()) {
+    // What corners or disks stand for is as far from the shape as they are told to be.
+    let error = document.error.or(original.is_some().then_some(0.0)).unwrap_or(f64::INFINITY);
+    match rebuilt(args, &document.axis, original.as_ref(), error) {
         Ok(record) => {
             let source = Feature { index: document.feature, id: document.id, ..Feature::default() };
             let mut bytes = Vec::new();
@@ -206,42 +211,60 @@ fn of_document(args: &ReconstructArgs, format: Format, document: AxisDocument) -
     }
 }
 
-/// The polygons of an axis, with their distance from the rings it was made of, if they are known.
+/// The polygons of an axis, with their distance from the shape it was made of: that from the rings it is complete
+/// for, if they are known, or from all of its disks, and how far these are from the shape.
 fn rebuilt(
     args: &ReconstructArgs,
     axis: &MedialAxis,
     original: Option<&Vec<Vec<Point>>>,
+    error: f64,
 ) -> Result<Record, Entry> {
     if axis.side != Side::Interior {
         let why = "the axis is that of the exterior; give that of the interior";
         return Err(Entry::refused("exterior", why));
     }
     let wrong = |error: &dyn std::fmt::Display| Entry::refused("internal", error.to_string());
-    let tolerance = args.tolerance.unwrap_or_else(|| default_tolerance(axis));
-    let step = args.step.unwrap_or(100.0 * tolerance);
+    // Arcs are drawn finer than the disks are right.
+    let finest = if error > 0.0 { ARCS * error } else { f64::INFINITY };
+    let usual = args.tolerance.unwrap_or_else(|| default_tolerance(axis));
+    let tolerance = args.tolerance.unwrap_or(usual.min(finest));
+    let step = args.step.unwrap_or(100.0 * usual);
     let length: f64 = axis.paths().iter().map(|path| axis.curve(&path).length()).sum();
     if args.method != Method::Exact && length / step > MOST_POINTS {
         let why = format!("more than {MOST_POINTS} points along the axis; take a larger --step");
         return Err(Entry::refused("too_large", why));
     }
     // What is between samples has no outline of its own.
-    let method = match axis.accuracy {
-        Accuracy::Sampled(_) if args.method == Method::Exact => Method::Disks,
-        _ => args.method,
+    let is_sampled = axis.accuracy != Accuracy::Exact;
+    let method =
+        if is_sampled && args.method == Method::Exact { Method::Disks } else { args.method };
+    let distance = |polygons: &Vec<Vec<Vec<Point>>>| {
+        original.map_or(f64::INFINITY, |original| {
+            boundary_distance(original, &polygons.concat(), 1e-2 * tolerance)
+        })
     };
-    let polygons = match (method, polygons_of(axis)) {
-        (Method::Exact, Ok(polygons)) => polygons,
-        (Method::Exact, Err(_)) => {
-            Outline::new(axis).map_err(|error| wrong(&error))?.polygons(tolerance)
+    let (polygons, distance) = match (method, polygons_of(axis)) {
+        // Bit for bit.
+        (Method::Exact, Ok(polygons)) => (polygons, 0.0),
+        (Method::Disks, _) if is_sampled && args.step.is_none() => {
+            (union_of_linked_disks(axis, tolerance), tolerance)
         }
-        (Method::Tangents, _) => {
-            without_crossings(&tangent_polygons(axis, step).map_err(|error| wrong(&error))?)
+        (method, _) => {
+            let polygons = match method {
+                Method::Exact => {
+                    Outline::new(axis).map_err(|error| wrong(&error))?.polygons(tolerance)
+                }
+                Method::Tangents => {
+                    let rings = tangent_polygons(axis, step).map_err(|error| wrong(&error))?;
+                    without_crossings(&rings, tolerance)
+                }
+                Method::Disks => union_of_disks(&disks(axis, step), tolerance),
+            };
+            let distance = distance(&polygons);
+            (polygons, distance)
         }
-        (Method::Disks, _) => union_of_disks(&disks(axis, step), tolerance),
     };
-    let error = original.map_or(f64::INFINITY, |original| {
-        boundary_distance(original, &polygons.concat(), 1e-2 * tolerance)
-    });
+    let error = error + distance;
     // Whichever way the rings run.
     let area = |rings: &Vec<Vec<Point>>| {
         let [outer, holes @ ..] = &rings[..] else { return 0.0 };

@@ -23,7 +23,8 @@ pub fn read(bytes: &[u8]) -> Result<impl Iterator<Item = Result<AxisDocument, Er
             place: "shape".to_owned(),
             why: error.to_string(),
         };
-        Ok(AxisDocument { feature, id, axis: shape.axis().map_err(wrong)? })
+        let error = Some(shape.error());
+        Ok(AxisDocument { feature, id, axis: shape.axis().map_err(wrong)?, error })
     };
     Ok(records(bytes)?.map(move |record| record.and_then(axis)))
 }

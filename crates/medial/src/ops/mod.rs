@@ -55,7 +55,7 @@ pub use outline::{Contour, Outline, OutlineError, OutlinePiece, OutlinePolygon, 
 pub use profile::{Station, narrowest, profile};
 pub use reconstruct::{Disk, ReconstructError, disks, polygons_of, signed_area, tangent_polygons};
 #[cfg(feature = "union")]
-pub use reconstruct::{union_of_disks, without_crossings};
+pub use reconstruct::{union_of_disks, union_of_linked_disks, without_crossings};
 pub use rest::{Origin, Pruned};
 pub use smooth::{SmoothError, Smoothed, smoothed};
 pub use stroke::Stroke;

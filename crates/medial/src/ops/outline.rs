@@ -219,7 +219,11 @@ impl Contour {
                     let angle = sweep.abs();
                     let n =
                         (angle / (2.0 * half)).max(angle / WIDEST).ceil().clamp(1.0, MAX_POINTS);
-                    let start = (from - centre) * (radius / (from - centre).norm());
+                    let start = from - centre;
+                    let size = start.norm();
+                    // Of a disk that rounding makes a point nothing lies between.
+                    let n = if size > 0.0 { n } else { 1.0 };
+                    let start = start * (radius / size);
                     for k in 1..n as u32 {
                         let (sin, cos) = (f64::from(k) * sweep / n).sin_cos();
                         push(centre + start * cos + start.perp() * sin);

@@ -20,6 +20,10 @@ use std::collections::BTreeMap;
 #[cfg(feature = "union")]
 use i_overlay::core::fill_rule::FillRule;
 #[cfg(feature = "union")]
+use i_overlay::core::solver::Solver;
+#[cfg(feature = "union")]
+use i_overlay::float::overlay::OverlayOptions;
+#[cfg(feature = "union")]
 use i_overlay::float::simplify::SimplifyShape;
 
 use super::outline::{Component, OutlineError, Turns, WRAPPED};
@@ -43,6 +47,12 @@ pub enum ReconstructError {
     #[error("{name} does not begin where the edge before it ends")]
     Open {
         /// The edge.
+        name: Name,
+    },
+    /// A corner is of a ring that has no edges.
+    #[error("{name} is of a ring without edges")]
+    Lone {
+        /// The corner.
         name: Name,
     },
 }
@@ -102,7 +112,7 @@ pub fn polygons_of(axis: &MedialAxis) -> Result<Vec<Vec<Vec<Point>>>, Reconstruc
         let is_outer = is_left_turning(&corners) == way;
         rings.push(Ring { name: (ring[0].polygon, ring[0].ring), corners, is_outer });
     }
-    Ok(grouped(axis, rings))
+    grouped(axis, rings)
 }
 
 /// A ring of an axis, as it was given.
@@ -126,11 +136,17 @@ fn is_left_turning(corners: &[Point]) -> bool {
 /// with the holes that belong to it.
 ///
 /// Rings that govern one path belong together, and so do those that others join.
-fn grouped(axis: &MedialAxis, mut rings: Vec<Ring>) -> Vec<Vec<Vec<Point>>> {
+///
+/// # Errors
+/// If a site is of no ring.
+fn grouped(
+    axis: &MedialAxis,
+    mut rings: Vec<Ring>,
+) -> Result<Vec<Vec<Vec<Point>>>, ReconstructError> {
     let is_first = |k: usize| k == 0 || rings[k - 1].name.0 != rings[k].name.0;
     // Without holes there is nothing to belong to.
     if (0..rings.len()).all(|k| is_first(k) && rings[k].is_outer) {
-        return rings.into_iter().map(|ring| vec![ring.corners]).collect();
+        return Ok(rings.into_iter().map(|ring| vec![ring.corners]).collect());
     }
     let mut trees = DisjointSets::new(rings.len());
     let mut ring_of = Vec::with_capacity(axis.sites().len());
@@ -139,6 +155,9 @@ fn grouped(axis: &MedialAxis, mut rings: Vec<Ring>) -> Vec<Vec<Vec<Point>>> {
         let name = (site.polygon, site.ring);
         if rings.get(last).is_none_or(|ring| ring.name != name) {
             last = rings.partition_point(|ring| ring.name < name);
+            if rings.get(last).is_none_or(|ring| ring.name != name) {
+                return Err(ReconstructError::Lone { name: Name::from(&site) });
+            }
         }
         ring_of.push(last as u32);
     }
@@ -166,7 +185,7 @@ fn grouped(axis: &MedialAxis, mut rings: Vec<Ring>) -> Vec<Vec<Vec<Point>>> {
         let at = if ring.is_outer { 0 } else { rings.len() };
         rings.insert(at, std::mem::take(&mut ring.corners));
     }
-    polygons
+    Ok(polygons)
 }
 
 /// A disk of an axis.
@@ -199,7 +218,8 @@ fn disk(centre: Point, radius: f64) -> Disk {
 
 /// Disks along a curve from its start to its end, at equal shares of its parameter.
 fn samples(curve: &Curve, step: f64) -> Vec<Disk> {
-    let pieces = (curve.length() / step).ceil().clamp(1.0, MAX_PIECES);
+    // A curve without length and a step of nothing have no quotient.
+    let pieces = (curve.length() / step).ceil().max(1.0).min(MAX_PIECES);
     let at = |k: u32| f64::from(k) / pieces;
     (0..=pieces as u32).map(|k| disk(curve.point_at(at(k)), curve.radius_at(at(k)))).collect()
 }
@@ -262,26 +282,89 @@ pub fn union_of_disks(disks: &[Disk], tolerance: f64) -> Vec<Vec<Vec<Point>>> {
         };
         (0..n).map(point).collect::<Vec<[f64; 2]>>()
     };
-    let mut disks: Vec<Disk> = disks.iter().filter(|disk| disk.radius > 0.0).copied().collect();
-    without_slivers(united(&mut disks, &|disks: &[Disk]| disks.iter().map(flattened).collect()))
+    let disks = disks.iter().filter(|disk| disk.radius > 0.0);
+    let mut parts: Vec<Part> = disks.map(|disk| (disk.centre, flattened(disk))).collect();
+    without_slivers(united(&mut parts), 0.0)
 }
 
-/// Polygons without crossings that hold what these rings wind around; the feature `union` has it.
+/// The union of all disks of an axis along whose paths centre and radius are linear, as those of sampled axes
+/// are, as polygons inside of it, no farther away than a tolerance. The feature `union` has it.
+///
+/// Between two disks it is their convex hull. Paths of radius 0 have no part in it.
 #[cfg(feature = "union")]
 #[must_use]
-pub fn without_crossings(polygons: &[Vec<Vec<Point>>]) -> Vec<Vec<Vec<Point>>> {
+pub fn union_of_linked_disks(axis: &MedialAxis, tolerance: f64) -> Vec<Vec<Vec<Point>>> {
+    let disk_of = |keypoint: u32| {
+        let (centre, radius) = axis.disk(keypoint);
+        disk(centre, radius)
+    };
+    let lone = (0..).zip(axis.degrees()).filter(|&(_, degree)| degree == 0);
+    let lone = lone.map(|(keypoint, _)| hull(&[disk_of(keypoint); 2], tolerance));
+    let linked = axis.paths().all_ends().map(|ends| hull(&ends.map(disk_of), tolerance));
+    let mut parts: Vec<Part> = lone.chain(linked).flatten().collect();
+    without_slivers(united(&mut parts), 0.0)
+}
+
+/// The convex hull of two disks, or the one that holds the other, as a polygon inside of it; `None` of points.
+#[cfg(feature = "union")]
+fn hull(ends: &[Disk; 2], tolerance: f64) -> Option<Part> {
+    let [from, to] = ends;
+    let middle = (from.centre + to.centre) * 0.5;
+    let larger = if from.radius > to.radius { from } else { to };
+    let mut contour: Contour = Vec::new();
+    let mut arc = |disk: &Disk, start: Point, sweep: f64| {
+        let half = (1.0 - tolerance / disk.radius).clamp(-1.0, 1.0).acos();
+        // Whatever the tolerance, no chord cuts off more than a sixth of a circle.
+        let n = (0.5 * sweep / half).max(3.0 * sweep / std::f64::consts::PI);
+        let n = if disk.radius > 0.0 { n.ceil().max(1.0).min(MAX_PIECES) } else { 0.0 };
+        for k in 0..=n as u32 {
+            let (sin, cos) = (sweep * f64::from(k) / n.max(1.0)).sin_cos();
+            let p = disk.centre + (start * cos + start.perp() * sin) * disk.radius;
+            contour.push([p.x, p.y]);
+        }
+    };
+    match (normal(from, to), normal(to, from)) {
+        (Some(right), Some(left)) => {
+            let turn = right.cross(left).atan2(right.dot(left)).rem_euclid(std::f64::consts::TAU);
+            arc(to, right, turn);
+            arc(from, left, std::f64::consts::TAU - turn);
+        }
+        _ => arc(larger, Point::new(1.0, 0.0), std::f64::consts::TAU),
+    }
+    (larger.radius > 0.0).then_some((middle, contour))
+}
+
+/// Polygons without crossings that hold what these rings wind around, but for rings that are smaller than a
+/// square of the tolerance, as where the rings nearly touch themselves. The feature `union` has it.
+#[cfg(feature = "union")]
+#[must_use]
+pub fn without_crossings(polygons: &[Vec<Vec<Point>>], tolerance: f64) -> Vec<Vec<Vec<Point>>> {
     let contour = |ring: &Vec<Point>| ring.iter().map(|p| [p.x, p.y]).collect();
     let all: Vec<Contour> = polygons.iter().flatten().map(contour).collect();
-    without_slivers(all.simplify_shape_as::<i64>(FillRule::Positive))
+    without_slivers(simplified(all, FillRule::Positive), tolerance * tolerance)
+}
+
+/// Contours without crossings, in shapes that meet at points at most, and so do their rings.
+#[cfg(feature = "union")]
+fn simplified(mut contours: Vec<Contour>, rule: FillRule) -> Vec<Vec<Contour>> {
+    // Coordinates beyond all numbers are nowhere.
+    for contour in &mut contours {
+        contour.retain(|p| p.iter().all(|v| v.is_finite()));
+    }
+    contours.simplify_shape_custom_as::<i64>(rule, OverlayOptions::ogc(), Solver::default())
 }
 
 #[cfg(feature = "union")]
 type Contour = Vec<[f64; 2]>;
 
-/// The rings of shapes, but for those that rounding made: their area is nothing beside that of the box of
-/// all shapes.
+/// What is united with others, and where it lies.
 #[cfg(feature = "union")]
-fn without_slivers(shapes: Vec<Vec<Contour>>) -> Vec<Vec<Vec<Point>>> {
+type Part = (Point, Contour);
+
+/// The rings of shapes, but for those that rounding made: their area is nothing beside that of the box of
+/// all shapes, or less than that given.
+#[cfg(feature = "union")]
+fn without_slivers(shapes: Vec<Vec<Contour>>, least: f64) -> Vec<Vec<Vec<Point>>> {
     /// That share is no ring anybody drew.
     const NOTHING: f64 = 1e-12;
     let points = |contour: &Contour| -> Vec<Point> {
@@ -290,31 +373,30 @@ fn without_slivers(shapes: Vec<Vec<Contour>>) -> Vec<Vec<Vec<Point>>> {
     let mut polygons: Vec<Vec<Vec<Point>>> =
         shapes.iter().map(|shape| shape.iter().map(points).collect()).collect();
     let bounds = polygons.iter().flatten().flatten().fold(Rect::EMPTY, |all, &p| all.with(p));
-    let least = NOTHING * (bounds.max - bounds.min).norm2();
+    let least = least.max(NOTHING * (bounds.max - bounds.min).norm2());
     let is_ring = |ring: &Vec<Point>| signed_area(ring).abs() > least;
     polygons.retain(|rings| rings.first().is_some_and(is_ring));
     polygons.iter_mut().for_each(|rings| rings.retain(is_ring));
     polygons
 }
 
-/// The union of disks, by halves that lie apart: what is inside of a half is gone before the halves meet.
+/// The union of parts, by halves that lie apart: what is inside of a half is gone before the halves meet.
 #[cfg(feature = "union")]
-fn united(disks: &mut [Disk], flattened: &impl Fn(&[Disk]) -> Vec<Contour>) -> Vec<Vec<Contour>> {
-    /// Disks that are put together at once.
+fn united(parts: &mut [Part]) -> Vec<Vec<Contour>> {
+    /// Parts that are put together at once.
     const FEW: usize = 8;
-    let contours = if disks.len() <= FEW {
-        flattened(disks)
+    let contours: Vec<Contour> = if parts.len() <= FEW {
+        parts.iter_mut().map(|(_, contour)| std::mem::take(contour)).collect()
     } else {
-        let bounds = disks.iter().fold(Rect::EMPTY, |all, disk| all.with(disk.centre));
+        let bounds = parts.iter().fold(Rect::EMPTY, |all, (centre, _)| all.with(*centre));
         let size = bounds.max - bounds.min;
-        let along = |disk: &Disk| if size.x > size.y { disk.centre.x } else { disk.centre.y };
-        let middle = disks.len() / 2;
-        disks.select_nth_unstable_by(middle, |a, b| along(a).total_cmp(&along(b)));
-        let (one, other) = disks.split_at_mut(middle);
-        let halves = [united(one, flattened), united(other, flattened)];
-        halves.into_iter().flatten().flatten().collect()
+        let along = |(centre, _): &Part| if size.x > size.y { centre.x } else { centre.y };
+        let middle = parts.len() / 2;
+        parts.select_nth_unstable_by(middle, |a, b| along(a).total_cmp(&along(b)));
+        let (one, other) = parts.split_at_mut(middle);
+        [united(one), united(other)].into_iter().flatten().flatten().collect()
     };
-    contours.simplify_shape_as::<i64>(FillRule::NonZero)
+    simplified(contours, FillRule::NonZero)
 }
 
 /// What the report does with a disk.
