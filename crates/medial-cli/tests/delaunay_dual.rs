@@ -93,6 +93,36 @@ fn points_without_order_have_a_border_and_an_axis() {
 }
 
 #[test]
+fn points_are_read_as_geometries_too() {
+    let places: Vec<[f64; 2]> = (0..80)
+        .map(|k| (std::f64::consts::TAU * f64::from(7 * k % 80) / 80.0).sin_cos())
+        .map(|(sin, cos)| [4.0 * cos, 2.0 * sin])
+        .collect();
+    let csv: String = places.iter().map(|[x, y]| format!("{x},{y}\n")).collect();
+    let wkt: String = places.iter().map(|[x, y]| format!("POINT ({x} {y})\n")).collect();
+    let multipoint = format!("{{\"type\":\"MultiPoint\",\"coordinates\":{places:?}}}");
+    let axis = |format: &str, text: &str| {
+        let args = ["axis", "-", "--from", format, "--to", "wkt", "-q"];
+        let run = medial_with(&[&args[..], &ENGINE].concat(), text);
+        assert_eq!((run.status, run.errors.as_str()), (Some(0), ""), "{format}");
+        run.text().to_owned()
+    };
+    let expected = axis("csv", &csv);
+    for (format, text) in [("wkt", &wkt), ("geojson", &multipoint), ("geojsonl", &multipoint)] {
+        assert_eq!(axis(format, text), expected, "{format}");
+    }
+    // What is wrong is told with its file, feature and line, once, and there is no border of the rest.
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("points.wkt");
+    fs::write(&file, wkt.replacen("POINT (", "POINT [", 1)).unwrap();
+    let run = medial(&["axis", file.to_str().unwrap()]);
+    assert_eq!((run.status, run.text()), (Some(1), ""));
+    let told = run.errors.lines().filter(|line| line.starts_with("error")).collect::<Vec<_>>();
+    assert_eq!(told.len(), 1, "{}", run.errors);
+    assert!(told[0].contains("points.wkt: feature 0: line 1, column 7: expected `(`"), "{told:?}");
+}
+
+#[test]
 fn smoothing_the_outline_of_an_image_is_for_images() {
     let rectangle = "POLYGON((0 0,4 0,4 2,0 2,0 0))";
     for command in ["axis", "branches"] {
