@@ -362,23 +362,40 @@ fn pictures_show_the_image_below_its_layers() {
 }
 
 #[test]
-fn tables_hold_one_layer() {
+fn tables_hold_one_layer_and_a_geopackage_all() {
     let (folder, bars) = folder_with_bars();
-    let table = folder.path().join("axes.gpkg");
-    let file = table.to_str().unwrap();
-    let run = medial(&words(&bars, &["-o", file]));
+    let path = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    let run = medial(&words(&bars, &["-o", &path("axes.fgb")]));
     assert_eq!(run.status, Some(2));
-    assert!(
-        run.errors.contains("a table holds one layer, and here are border, axis"),
-        "{}",
-        run.errors
-    );
+    let why = "the format fgb holds one layer, and here are border, axis; name one with --layers, or write gpkg";
+    assert!(run.errors.contains(why), "{}", run.errors);
     assert_eq!(names(folder.path()), ["bars.png"]);
-    let run = medial(&words(&bars, &["-o", file, "--layers", "border"]));
+    // One layer has the name of the file, and its polygons have axes.
+    let file = path("one.gpkg");
+    let run = medial(&words(&bars, &["-o", &file, "--layers", "border"]));
     assert_eq!(run.status, Some(0), "{}", run.errors);
-    // The polygons of a table have axes.
-    let run = medial(&["axis", file, "--to", "wkt"]);
+    let run = medial(&["axis", &file, "--to", "wkt"]);
     assert_eq!((run.status, run.text().lines().count()), (Some(0), 4), "{}", run.errors);
+    // Several have names of their own.
+    let file = path("all.gpkg");
+    let run = medial(&words(&bars, &["-o", &file, "--layers", "border,dual,axis"]));
+    assert_eq!((run.status, run.errors.as_str()), (Some(0), ""));
+    let run = medial(&["axis", &file, "--layer", "border", "--to", "wkt"]);
+    assert_eq!((run.status, run.text().lines().count()), (Some(0), 4), "{}", run.errors);
+    let run = medial(&["axis", &file, "--layer", "dual", "--to", "wkt"]);
+    assert_eq!(run.status, Some(1));
+    assert!(run.errors.contains("feature 3: is a MultiLineString"), "{}", run.errors);
+    let run = medial(&["axis", &file]);
+    assert!(run.errors.contains("`border`, `dual`, `axis`"), "{}", run.errors);
+    assert_eq!(names(folder.path()), ["all.gpkg", "bars.png", "one.gpkg"]);
+    // Layers without features are there, too: nothing has changed.
+    let file = path("same.gpkg");
+    let run = medial(&words(&bars, &["--compare", &bars, "-o", &file]));
+    assert_eq!((run.status, run.errors.as_str()), (Some(0), ""));
+    let run = medial(&["axis", &file, "--layer", "change", "--to", "wkt"]);
+    assert_eq!((run.status, run.text().lines().count()), (Some(0), 4), "{}", run.errors);
+    let run = medial(&["axis", &file, "--layer", "gained"]);
+    assert!(run.errors.contains("there are no features"), "{}", run.errors);
 }
 
 #[test]

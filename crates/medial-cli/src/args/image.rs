@@ -30,7 +30,8 @@ Of --compare they are: change, an outline of each object in either image (white)
 --simplify and --smooth-border change the borders between regions, once for both sides, so that regions still fit;
 --retract draws back that of each region by its own axis, so that neighbours part.
 
-Formats: geojson, geojsonl, csv, wkt, wkb, dxf, svg, png; tables (gpkg, shp, fgb, parquet) of one layer.
+Formats: geojson, geojsonl, csv, wkt, wkb, dxf, svg, png; gpkg, with a table for each layer; other tables (shp, fgb,
+parquet) of one layer.
 
 Examples:
   medial image fixtures/images/lake.png -o scene.geojson

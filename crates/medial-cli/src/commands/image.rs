@@ -82,6 +82,7 @@ pub fn run(args: &'static ImageArgs) -> Result<Status, Failure> {
         formats: FORMATS,
         columns: COLUMNS,
         engine: args.engine(cell).engine,
+        layers: several(&layers),
     };
     let is_georeferenced = is_georeferenced(&grid, crs.as_ref());
     let overlay = Overlay { grid, colours, layers: Vec::new(), is_georeferenced, crs: crs.clone() };
@@ -155,13 +156,21 @@ impl Painting {
 /// The format of the output, if layers have it.
 fn checked_format(args: &'static ImageArgs, layers: &[ImageLayer]) -> Result<Format, Failure> {
     let target: &'static Target = &args.target;
-    let plan = Plan { target, thing: "layers", formats: FORMATS, columns: COLUMNS, engine: None };
+    let plan = Plan {
+        target,
+        thing: "layers",
+        formats: FORMATS,
+        columns: COLUMNS,
+        engine: None,
+        layers: Vec::new(),
+    };
     let format = plan.format()?;
     let usage = |why: String| Err(Failure::Usage(why));
-    if format.is_table() && layers.len() > 1 {
-        let names = layers.iter().map(|layer| layer.name()).collect::<Vec<_>>().join(", ");
+    if format.is_table() && format != Format::Gpkg && layers.len() > 1 {
+        let names = several(layers).join(", ");
         return usage(format!(
-            "a table holds one layer, and here are {names}; name one with --layers, or write geojson"
+            "the format {format} holds one layer, and here are {names}; name one with --layers, or write gpkg, which \
+             holds all"
         ));
     }
     let is_picture = matches!(format, Format::Svg | Format::Png);
@@ -178,6 +187,11 @@ fn checked_format(args: &'static ImageArgs, layers: &[ImageLayer]) -> Result<For
 fn borders(objects: &Objects, args: &ImageArgs) -> Option<Borders> {
     let simple = args.simplify.map(|tolerance| objects.borders(tolerance));
     simple.or_else(|| args.engine.smooth_border.map(|width| objects.smooth_borders(width)))
+}
+
+/// The names of layers, if there are several.
+pub fn several(layers: &[ImageLayer]) -> Vec<&'static str> {
+    if layers.len() > 1 { layers.iter().map(|layer| layer.name()).collect() } else { Vec::new() }
 }
 
 /// A feature for each object: its mask with its outline, or its polygons between these borders.

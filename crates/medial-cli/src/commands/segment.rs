@@ -27,6 +27,7 @@ pub fn run(args: &'static SegmentArgs) -> Result<Status, Failure> {
         formats: POLYGONS,
         columns: COLUMNS,
         engine: None,
+        layers: Vec::new(),
     };
     let is_picture = plan.asked()? == Format::Png;
     let format = if is_picture { Format::Png } else { plan.format()? };
