@@ -2,7 +2,7 @@
 
 use crate::failure::{Failure, plain};
 use crate::output::Output;
-use medial_io::table::{self, Spool, WriteError};
+use medial_io::table::{self, Layers, Spool, WriteError};
 use medial_io::{Crs, Format};
 use std::fs::{self, File};
 use std::io::{self, Read as _};
@@ -19,15 +19,27 @@ pub struct Table {
     format: Format,
     /// The name of the file as the user gave it.
     name: String,
-    /// That of the layer.
-    layer: String,
-    spool: Spool,
+    rows: Rows,
     quiet: bool,
 }
 
+/// The property of features that names their layer.
+const LAYER: &str = "layer";
+
+/// Rows of a layer with its name, or of several.
+enum Rows {
+    Layer(String, Spool),
+    Layers(Layers),
+}
+
 impl Table {
-    /// A table that is to become a file.
-    pub fn create(path: &Path, format: Format, quiet: bool) -> Result<Self, Failure> {
+    /// A table that is to become a file, or one for each of these layers if there are such.
+    pub fn create(
+        path: &Path,
+        format: Format,
+        layers: &[&str],
+        quiet: bool,
+    ) -> Result<Self, Failure> {
         let name = path.display().to_string();
         let failed = |error: io::Error| {
             let why = format_args!("cannot create a temporary file: {}", plain(&error));
@@ -41,16 +53,32 @@ impl Table {
             let why = "a shapefile is several files, and this is none; name another one";
             return Err(Failure::file(&name, why));
         }
-        let file = if is_special { tempfile::tempfile() } else { tempfile::tempfile_in(folder) };
-        let spool = Spool::new(file.map_err(failed)?);
-        let layer = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-        Ok(Self { format, name, layer, spool, quiet })
+        let spool = || {
+            let file =
+                if is_special { tempfile::tempfile() } else { tempfile::tempfile_in(folder) };
+            file.map(Spool::new).map_err(failed)
+        };
+        let rows = if layers.is_empty() {
+            let layer = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+            Rows::Layer(layer, spool()?)
+        } else {
+            let mut all = Layers::new(LAYER);
+            for &layer in layers {
+                all.spools.push((layer.to_owned(), spool()?));
+            }
+            Rows::Layers(all)
+        };
+        Ok(Self { format, name, rows, quiet })
     }
 
     /// Adds features, each on a line of GeoJSON.
     pub fn add(&mut self, lines: &[u8]) -> Result<(), Failure> {
         let name = &self.name;
-        self.spool.add(lines).map_err(|error| Failure::write(name, &error))
+        let added = match &mut self.rows {
+            Rows::Layer(_, spool) => spool.add(lines),
+            Rows::Layers(layers) => layers.add(lines),
+        };
+        added.map_err(|error| Failure::write(name, &error))
     }
 
     /// Writes the table, and lets its files appear, the one with the name last.
@@ -100,7 +128,10 @@ impl Table {
         path: &Path,
         crs: Option<&Crs>,
     ) -> Result<Vec<(PathBuf, &'static str)>, Failure> {
-        let found = table::write(self.format, path, &self.layer, crs, &mut self.spool);
+        let found = match &mut self.rows {
+            Rows::Layer(layer, spool) => table::write(self.format, path, layer, crs, spool),
+            Rows::Layers(layers) => table::write_layers(path, crs, layers),
+        };
         match found {
             Ok(written) => {
                 if !self.quiet {

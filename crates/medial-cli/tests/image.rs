@@ -2,9 +2,9 @@
 
 mod common;
 
-use common::{medial, medial_with, names};
+use common::{fixture, medial, medial_with, names};
 use serde_json::Value;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -138,11 +138,11 @@ fn points_choose_regions_and_combine_them() {
 #[test]
 fn objects_that_meet_at_a_corner_are_polygons_of_their_own() {
     let folder = tempfile::tempdir().unwrap();
-    let scene = picture(folder.path(), "corner.png", &["....", ".r..", "..g.", "...."]);
+    let scene = picture(folder.path(), "corner.png", &["...w", ".r..", "..g.", "...."]);
     let both = ["--at", "1.5,-1.5", "--at", "2.5,-2.5", "--combine", "--layers", "border"];
-    for more in [&[][..], &["--simplify", "0.1"]] {
+    for more in [&[][..], &["--simplify", "0.1"], &["--engine", "path_tracing"]] {
         let run = medial(&words(&scene, &[&both, more].concat()));
-        assert_eq!(run.status, Some(0), "{}", run.errors);
+        assert_eq!((run.status, run.errors.as_str()), (Some(0), ""), "nothing was repaired");
         let border = &features(run.text())[0]["geometry"];
         assert_eq!(border["type"], "MultiPolygon");
         let polygons = border["coordinates"].as_array().unwrap();
@@ -150,6 +150,11 @@ fn objects_that_meet_at_a_corner_are_polygons_of_their_own() {
         let n: Vec<usize> = polygons.iter().map(|p| p[0].as_array().unwrap().len()).collect();
         assert_eq!(n, [5, 5], "{border}");
     }
+    // What hangs together by corners has one axis.
+    let axis = ["--layers", "axis", "--prune", "chord=0.5", "--to", "wkt"];
+    let run = medial(&words(&scene, &[&both[..5], &axis].concat()));
+    assert_eq!((run.status, run.errors.as_str()), (Some(0), ""));
+    assert_eq!(run.text().lines().count(), 1, "{}", run.text());
     // The same of what changes.
     let before = picture(folder.path(), "before.png", &["rrrr", "r.rr", "rr.r", "rrrr"]);
     let after = picture(folder.path(), "after.png", &["rrrr"; 4]);
@@ -158,6 +163,84 @@ fn objects_that_meet_at_a_corner_are_polygons_of_their_own() {
     assert_eq!(run.status, Some(0), "{}", run.errors);
     let gained = &features(run.text())[0]["geometry"];
     assert_eq!(gained["coordinates"].as_array().unwrap().len(), 2, "{gained}");
+}
+
+/// Twice the area of a ring of GeoJSON that runs counterclockwise.
+fn twice_area(ring: &Value) -> f64 {
+    let points: Vec<[f64; 2]> = serde_json::from_value(ring.clone()).unwrap();
+    points.windows(2).map(|p| p[0][0] * p[1][1] - p[0][1] * p[1][0]).sum()
+}
+
+/// The rings of a feature of polygons, each polygon's outer one first.
+fn polygons_of(feature: &Value) -> Vec<Vec<Value>> {
+    let rings = |polygon: &Value| polygon.as_array().unwrap().clone();
+    let coordinates = &feature["geometry"]["coordinates"];
+    match feature["geometry"]["type"].as_str().unwrap() {
+        "Polygon" => vec![rings(coordinates)],
+        _ => coordinates.as_array().unwrap().iter().map(rings).collect(),
+    }
+}
+
+#[test]
+fn outer_rings_run_counterclockwise_and_holes_clockwise() {
+    // [RFC 7946, 3.1.6], of a red ring around a white spot.
+    let folder = tempfile::tempdir().unwrap();
+    let ring =
+        picture(folder.path(), "ring.png", &["......", ".rrrr.", ".rwwr.", ".rrrr.", "......"]);
+    let blank = picture(folder.path(), "blank.png", &["......"; 5]);
+    let compared = ["--compare", &blank, "--layers", "change"];
+    let segment = [&["segment", &ring][..], &PARTED].concat();
+    let image = |more: &[&'static str]| -> Vec<&str> {
+        [&["image", &ring][..], &PARTED, &["--layers", "border"], more].concat()
+    };
+    for args in [
+        segment,
+        image(&[]),
+        image(&["--simplify", "0.1"]),
+        image(&["--smooth-border", "0.5"]),
+        image(&["--retract", "0.01"]),
+        [&["image", &ring][..], &PARTED, &compared].concat(),
+    ] {
+        let run = medial(&args);
+        assert_eq!(run.status, Some(0), "{args:?}: {}", run.errors);
+        let mut n_holes = 0;
+        for polygon in features(run.text()).iter().flat_map(polygons_of) {
+            let areas: Vec<f64> = polygon.iter().map(twice_area).collect();
+            assert!(
+                areas[0] > 0.0 && areas[1..].iter().all(|&area| area < 0.0),
+                "{args:?} {areas:?}"
+            );
+            n_holes += areas.len() - 1;
+        }
+        assert!(n_holes > 0, "{args:?}");
+    }
+}
+
+#[test]
+fn smoothed_regions_share_their_borders() {
+    let scene = fixture("images/lake.png");
+    let (columns, rows) = (120.0, 100.0);
+    let run =
+        medial(&["image", scene.to_str().unwrap(), "--smooth-border", "1.5", "--layers", "border"]);
+    assert_eq!((run.status, run.errors.as_str()), (Some(0), ""));
+    let mut ways: BTreeSet<[[u64; 2]; 2]> = BTreeSet::new();
+    let mut total = 0.0;
+    for ring in features(run.text()).iter().flat_map(polygons_of).flatten() {
+        total += 0.5 * twice_area(&ring);
+        let points: Vec<[f64; 2]> = serde_json::from_value(ring).unwrap();
+        for ends in points.windows(2) {
+            let way = [ends[0], ends[1]].map(|p| p.map(f64::to_bits));
+            assert!(ways.insert(way), "{ends:?} is run through twice");
+        }
+    }
+    assert!((total - columns * rows).abs() < 1e-6, "{total}: no gap and no overlap");
+    // Each side is that of a neighbour, too, or on the frame of the image.
+    let is_frame = |[[a, c], [b, d]]: [[u64; 2]; 2]| {
+        let [a, b, c, d] = [a, b, c, d].map(f64::from_bits);
+        (a == b && (a == 0.0 || a == columns)) || (c == d && (c == 0.0 || c == -rows))
+    };
+    assert!(ways.iter().all(|&[a, b]| ways.contains(&[b, a]) || is_frame([a, b])));
+    assert!(ways.len() > 10_000, "{}", ways.len());
 }
 
 #[test]
@@ -279,23 +362,40 @@ fn pictures_show_the_image_below_its_layers() {
 }
 
 #[test]
-fn tables_hold_one_layer() {
+fn tables_hold_one_layer_and_a_geopackage_all() {
     let (folder, bars) = folder_with_bars();
-    let table = folder.path().join("axes.gpkg");
-    let file = table.to_str().unwrap();
-    let run = medial(&words(&bars, &["-o", file]));
+    let path = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    let run = medial(&words(&bars, &["-o", &path("axes.fgb")]));
     assert_eq!(run.status, Some(2));
-    assert!(
-        run.errors.contains("a table holds one layer, and here are border, axis"),
-        "{}",
-        run.errors
-    );
+    let why = "the format fgb holds one layer, and here are border, axis; name one with --layers, or write gpkg";
+    assert!(run.errors.contains(why), "{}", run.errors);
     assert_eq!(names(folder.path()), ["bars.png"]);
-    let run = medial(&words(&bars, &["-o", file, "--layers", "border"]));
+    // One layer has the name of the file, and its polygons have axes.
+    let file = path("one.gpkg");
+    let run = medial(&words(&bars, &["-o", &file, "--layers", "border"]));
     assert_eq!(run.status, Some(0), "{}", run.errors);
-    // The polygons of a table have axes.
-    let run = medial(&["axis", file, "--to", "wkt"]);
+    let run = medial(&["axis", &file, "--to", "wkt"]);
     assert_eq!((run.status, run.text().lines().count()), (Some(0), 4), "{}", run.errors);
+    // Several have names of their own.
+    let file = path("all.gpkg");
+    let run = medial(&words(&bars, &["-o", &file, "--layers", "border,dual,axis"]));
+    assert_eq!((run.status, run.errors.as_str()), (Some(0), ""));
+    let run = medial(&["axis", &file, "--layer", "border", "--to", "wkt"]);
+    assert_eq!((run.status, run.text().lines().count()), (Some(0), 4), "{}", run.errors);
+    let run = medial(&["axis", &file, "--layer", "dual", "--to", "wkt"]);
+    assert_eq!(run.status, Some(1));
+    assert!(run.errors.contains("feature 3: is a MultiLineString"), "{}", run.errors);
+    let run = medial(&["axis", &file]);
+    assert!(run.errors.contains("`border`, `dual`, `axis`"), "{}", run.errors);
+    assert_eq!(names(folder.path()), ["all.gpkg", "bars.png", "one.gpkg"]);
+    // Layers without features are there, too: nothing has changed.
+    let file = path("same.gpkg");
+    let run = medial(&words(&bars, &["--compare", &bars, "-o", &file]));
+    assert_eq!((run.status, run.errors.as_str()), (Some(0), ""));
+    let run = medial(&["axis", &file, "--layer", "change", "--to", "wkt"]);
+    assert_eq!((run.status, run.text().lines().count()), (Some(0), 4), "{}", run.errors);
+    let run = medial(&["axis", &file, "--layer", "gained"]);
+    assert!(run.errors.contains("there are no features"), "{}", run.errors);
 }
 
 #[test]

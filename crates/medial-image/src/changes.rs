@@ -325,7 +325,7 @@ mod tests {
         // Column 2, rows 0 and 1.
         assert_eq!(
             gained[0],
-            [vec![vec![at(2.0, 0.0), at(3.0, 0.0), at(3.0, -2.0), at(2.0, -2.0)]]]
+            [vec![vec![at(2.0, 0.0), at(2.0, -2.0), at(3.0, -2.0), at(3.0, 0.0)]]]
         );
         assert_eq!(gained.iter().map(Vec::len).collect::<Vec<_>>(), [1, 0, 0, 1]);
         let n = |part| changes.polygons(part).map(|p| p.len()).collect::<Vec<_>>();

@@ -96,13 +96,17 @@ impl Field {
     }
 
     /// The field in which these values become 0 and 100, as for another image beside which it is looked at; where both
-    /// are the same all become 0.
+    /// are the same all become 0. What lies between them stays between 0 and 100, whatever is rounded.
     #[must_use]
     pub fn stretched(mut self, extents: [[f32; 2]; 3]) -> Self {
-        for (band, [low, high]) in extents.into_iter().enumerate() {
-            let scale = if high > low { 100.0 / (high - low) } else { 0.0 };
+        for (band, extent) in extents.into_iter().enumerate() {
+            let [low, high] = extent.map(f64::from);
             let known = self.values.iter_mut().filter(|value| !value[band].is_nan());
-            known.for_each(|value| value[band] = (value[band] - low) * scale);
+            known.for_each(|value| {
+                // The share of the greatest value is 1 only if it is divided; a factor would be rounded before.
+                let share = (f64::from(value[band]) - low) / (high - low);
+                value[band] = if high > low { (100.0 * share) as f32 } else { 0.0 };
+            });
         }
         self
     }
@@ -184,6 +188,20 @@ mod tests {
         let known: Vec<[f32; 3]> = [0, 1, 3].map(|k| field.values()[k]).to_vec();
         assert_eq!(known, expected);
         assert!(!field.is_known(2));
+    }
+
+    #[test]
+    fn bands_stay_within_0_and_100_whatever_is_rounded() {
+        // A hundred over 45 is rounded up so much that 45 times it is more than a hundred.
+        let greatest = 45.0_f32;
+        assert!(greatest * (100.0 / greatest) > 100.0);
+        let band = [0.0, greatest, f32::MIN, f32::MAX];
+        let fields = [[band[0], band[1]], [band[2], band[3]]].map(|values| {
+            Field::of_bands(Grid::of_image(2, 1), values.map(|v| [v, 7.0, -v])).unwrap()
+        });
+        for field in fields {
+            assert_eq!(field.values(), [[0.0, 0.0, 100.0], [100.0, 0.0, 0.0]]);
+        }
     }
 
     #[test]

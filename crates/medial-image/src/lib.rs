@@ -4,7 +4,7 @@
 //! [`feature_space`], [`mean_shift`], [`thresholds`] and [`near_colours`] turn it into [`Labels`], one number for
 //! each pixel, that of the connected region that it is in; regions are [`Mask`](medial::raster::Mask)s and
 //! polygons. A [`Selection`] of them, by points or as a whole, makes [`Objects`], whose [`Borders`] can be
-//! simplified, and which can be compared with those of another image ([`Changes`]).
+//! simplified or smoothed, and which can be compared with those of another image ([`Changes`]).
 //!
 //! ```
 //! use medial::raster::Grid;

@@ -94,7 +94,7 @@ impl Objects {
     }
 
     /// The polygons of an object along the sides of its pixels, one for each part that hangs together by sides; where
-    /// objects meet their corners are the same numbers.
+    /// objects meet their corners are the same numbers. Outer rings run counterclockwise, holes clockwise.
     ///
     /// # Panics
     /// If there is no such object.

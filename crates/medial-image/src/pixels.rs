@@ -90,7 +90,8 @@ impl Window {
     }
 }
 
-/// The polygons of pixels, given by their numbers in order, in the plane of the grid of their image.
+/// The polygons of pixels, given by their numbers in order, in the plane of the grid of their image; outer rings run
+/// counterclockwise, holes clockwise.
 pub(crate) fn polygons(pixels: &[u64], grid: &Grid) -> Polygons {
     let windows = Window::parts(pixels, grid.columns);
     windows.iter().flat_map(|window| placed(grid, &window.corners())).collect()
@@ -127,9 +128,18 @@ fn parts(pixels: &[u64], columns: u64) -> Vec<Vec<u64>> {
 }
 
 /// Corners of pixels in the plane of a grid.
-pub(crate) fn placed(grid: &Grid, polygons: &[Vec<Vec<[u32; 2]>>]) -> Polygons {
-    let ring = |ring: &Vec<[u32; 2]>| ring.iter().map(|&[x, y]| grid.corner(x, y)).collect();
+fn placed(grid: &Grid, polygons: &[Vec<Vec<[u32; 2]>>]) -> Polygons {
+    let corner = |&[column, row]: &[u32; 2]| grid.corner(column, row);
+    let ring = |ring: &Vec<[u32; 2]>| turned(grid, ring.iter().map(corner).collect());
     polygons.iter().map(|polygon| polygon.iter().map(ring).collect()).collect()
+}
+
+/// A ring in the plane of a grid with the shape on its left, of one that has it there in columns and rows.
+pub(crate) fn turned(grid: &Grid, mut ring: Vec<Point>) -> Vec<Point> {
+    if grid.is_mirrored() && !ring.is_empty() {
+        ring[1..].reverse();
+    }
+    ring
 }
 
 #[cfg(test)]
@@ -153,9 +163,23 @@ mod tests {
     fn pixels_that_meet_at_a_corner_are_polygons_of_their_own() {
         let found = polygons(&[0, 3], &Grid::of_image(2, 2));
         let square = |x: f64, y: f64| {
-            let corners = [[x, y], [x + 1.0, y], [x + 1.0, y - 1.0], [x, y - 1.0]];
+            let corners = [[x, y], [x, y - 1.0], [x + 1.0, y - 1.0], [x + 1.0, y]];
             vec![corners.map(|[x, y]| Point::new(x, y)).to_vec()]
         };
         assert_eq!(found, [square(0.0, 0.0), square(1.0, -1.0)]);
+    }
+
+    #[test]
+    fn outer_rings_run_counterclockwise_wherever_rows_go() {
+        let area = |ring: &Vec<Point>| {
+            let pairs = ring.iter().zip(ring.iter().cycle().skip(1));
+            0.5 * pairs.map(|(a, b)| a.cross(*b)).sum::<f64>()
+        };
+        // A ring of pixels around one, three by three.
+        for cell in [[2.0, 1.0], [2.0, -1.0], [-2.0, 1.0], [-2.0, -1.0]] {
+            let grid = Grid { cell, ..Grid::of_image(3, 3) };
+            let found = polygons(&[0, 1, 2, 3, 5, 6, 7, 8], &grid);
+            assert_eq!(found[0].iter().map(area).collect::<Vec<_>>(), [18.0, -2.0], "{cell:?}");
+        }
     }
 }

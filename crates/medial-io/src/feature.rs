@@ -27,6 +27,9 @@ pub struct Feature {
     pub geometry: String,
     /// Whether the geometry is polygonal, be it an empty one.
     pub polygonal: bool,
+    /// Its points, if its geometry is a point or several, in formats in which [points](crate::points) may stand for a
+    /// border.
+    pub points: Option<Vec<Point>>,
     /// Which points its rings enclose.
     pub fill: FillRule,
     /// The curves that its edges were flattened from, if there were any.

@@ -100,9 +100,11 @@ pub fn read_with<'a>(
         Format::Dxf => dxf::read(bytes, options),
         Format::Ttf => font::read(bytes, options),
         Format::Png | Format::Tiff | Format::Jpeg => image::read(format, bytes, options),
-        Format::GeoJson => geojson::read(text(bytes)?),
-        Format::GeoJsonLines | Format::GeoJsonSeq => Ok(geojson::read_lines(text(bytes)?)),
-        Format::Wkt => Ok(wkt::read(text(bytes)?)),
+        Format::GeoJson => geojson::read(text(bytes)?).map(points::gathered),
+        Format::GeoJsonLines | Format::GeoJsonSeq => {
+            Ok(points::gathered(geojson::read_lines(text(bytes)?)))
+        }
+        Format::Wkt => Ok(points::gathered(wkt::read(text(bytes)?))),
         Format::Wkb => wkb::read(bytes),
         Format::Rings => rings::read(text(bytes)?),
         Format::Csv => points::read(text(bytes)?),

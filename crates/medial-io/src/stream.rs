@@ -8,7 +8,7 @@ use std::io::BufRead;
 use std::iter;
 
 use crate::text::{lines, text};
-use crate::{Crs, Error, FeatureError, Format, Layer, Part, geojson, wkt};
+use crate::{Crs, Error, FeatureError, Format, Layer, Part, geojson, points, wkt};
 
 /// Reads features from a source as they arrive, if the [format](Format::is_streamed) has one after the
 /// other.
@@ -48,7 +48,7 @@ pub fn read_stream<'a>(
     };
     // Lines have no place for it.
     let crs = (format != Format::Wkt).then(Crs::of_geojson);
-    Ok(Layer { crs, ..Layer::of_parts(parts) })
+    Ok(points::gathered(Layer { crs, ..Layer::of_parts(parts) }))
 }
 
 /// Whole lines of a source.

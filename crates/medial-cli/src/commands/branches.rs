@@ -74,6 +74,7 @@ pub fn run(args: &'static BranchesArgs) -> Result<Status, Failure> {
         formats: LINES,
         columns: if args.limbs { LIMB_COLUMNS } else { COLUMNS },
         engine: args.engine.engine,
+        layers: Vec::new(),
     };
     let input = run.open_with(&args.input, Documents::AsPolygons)?;
     args.engine.check_input(input.format)?;

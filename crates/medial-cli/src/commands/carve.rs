@@ -63,6 +63,7 @@ pub fn run(args: &'static CarveArgs) -> Result<Status, Failure> {
         formats: FORMATS,
         columns: COLUMNS,
         engine: Some(args.engine),
+        layers: Vec::new(),
     };
     let format = plan.format()?;
     let machine = machine(args, format)?;

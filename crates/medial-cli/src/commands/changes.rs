@@ -1,7 +1,7 @@
 //! What became of the objects of an image in another one.
 
 use super::features::Run;
-use super::image::{Drawn, FORMATS, Painting, lines};
+use super::image::{Drawn, FORMATS, Painting, lines, several};
 use super::place::{box_ring, is_georeferenced};
 use super::records::{Found, Plan};
 use super::regions::{self, Parted, color};
@@ -85,6 +85,7 @@ pub fn run(
         formats: FORMATS,
         columns: COLUMNS,
         engine: None,
+        layers: several(&layers),
     };
     let is_picture = matches!(format, Format::Svg | Format::Png);
     let (grid, colours, crs) = (*objects.grid(), before.colours.clone(), before.crs.clone());

@@ -74,6 +74,7 @@ fn plan_of_places(args: &'static ClearanceArgs) -> Result<Plan, Failure> {
         formats: LINES,
         columns: COLUMNS,
         engine: Some(args.engine),
+        layers: Vec::new(),
     };
     if plan.asked()? == Format::Svg {
         return Err(Failure::Usage("svg is the plot of --profile; see --to in --help".to_owned()));
@@ -162,6 +163,7 @@ fn profiles(args: &'static ClearanceArgs, mut run: Run) -> Result<Status, Failur
         formats: DRAWN_LINES,
         columns: STATION_COLUMNS,
         engine: Some(args.engine),
+        layers: Vec::new(),
     };
     let input = run.open_with(&args.input, Documents::AsPolygons)?;
     let format = plan.format()?;

@@ -1,7 +1,7 @@
 use super::axis::{dual, pruned, traced};
 use super::changes;
 use super::features::Run;
-use super::place::{is_georeferenced, is_mirrored, write_beside};
+use super::place::{is_georeferenced, write_beside};
 use super::records::{Found, Plan};
 use super::regions::{self, Parted, color};
 use super::sink::title;
@@ -14,8 +14,8 @@ use medial::axis::{Engine, Joining, KeypointKind, MedialAxis, Polyline, Side};
 use medial::domain::Domain;
 use medial::engine::{self, DelaunayDual};
 use medial::geom::{Point, Rect};
-use medial::raster::{Grid, outline};
-use medial_image::{Object, Objects};
+use medial::raster::Grid;
+use medial_image::{Borders, Object, Objects};
 use medial_io::record::{Record, Shape, Value};
 use medial_io::svg::{LineStyle, Options, Overlay, OverlayLayer};
 use medial_io::{Crs, Feature, Format, Layer, default_tolerance, png, svg};
@@ -82,10 +82,13 @@ pub fn run(args: &'static ImageArgs) -> Result<Status, Failure> {
         formats: FORMATS,
         columns: COLUMNS,
         engine: args.engine(cell).engine,
+        layers: several(&layers),
     };
     let is_georeferenced = is_georeferenced(&grid, crs.as_ref());
     let overlay = Overlay { grid, colours, layers: Vec::new(), is_georeferenced, crs: crs.clone() };
-    let layer = timed(&mut run.stages.operations, || layer(&objects, crs, args.simplify));
+    let borders = timed(&mut run.stages.operations, || borders(&objects, args));
+    let has_borders = borders.is_some();
+    let layer = timed(&mut run.stages.operations, || layer(&objects, crs, borders));
     let drafter = Drafter {
         engine: args.engine(cell),
         pruning: args.pruning(cell),
@@ -94,7 +97,7 @@ pub fn run(args: &'static ImageArgs) -> Result<Status, Failure> {
         tolerance: args.tolerance,
         radius_as_z: args.z == Some(Height::Radius),
         are_bands,
-        is_simplified: args.simplify.is_some(),
+        has_borders,
         objects,
     };
     let title = title("Regions", &args.input);
@@ -153,13 +156,21 @@ impl Painting {
 /// The format of the output, if layers have it.
 fn checked_format(args: &'static ImageArgs, layers: &[ImageLayer]) -> Result<Format, Failure> {
     let target: &'static Target = &args.target;
-    let plan = Plan { target, thing: "layers", formats: FORMATS, columns: COLUMNS, engine: None };
+    let plan = Plan {
+        target,
+        thing: "layers",
+        formats: FORMATS,
+        columns: COLUMNS,
+        engine: None,
+        layers: Vec::new(),
+    };
     let format = plan.format()?;
     let usage = |why: String| Err(Failure::Usage(why));
-    if format.is_table() && layers.len() > 1 {
-        let names = layers.iter().map(|layer| layer.name()).collect::<Vec<_>>().join(", ");
+    if format.is_table() && format != Format::Gpkg && layers.len() > 1 {
+        let names = several(layers).join(", ");
         return usage(format!(
-            "a table holds one layer, and here are {names}; name one with --layers, or write geojson"
+            "the format {format} holds one layer, and here are {names}; name one with --layers, or write gpkg, which \
+             holds all"
         ));
     }
     let is_picture = matches!(format, Format::Svg | Format::Png);
@@ -172,25 +183,31 @@ fn checked_format(args: &'static ImageArgs, layers: &[ImageLayer]) -> Result<For
     Ok(format)
 }
 
-/// A feature for each object: its mask with its outline, or its polygons between simplified borders.
-fn layer(objects: &Arc<Objects>, crs: Option<Crs>, simplify: Option<f64>) -> Layer<'static> {
-    let borders = simplify.map(|tolerance| objects.borders(tolerance));
+/// The borders between objects that are other ones than the sides of pixels.
+fn borders(objects: &Objects, args: &ImageArgs) -> Option<Borders> {
+    let simple = args.simplify.map(|tolerance| objects.borders(tolerance));
+    simple.or_else(|| args.engine.smooth_border.map(|width| objects.smooth_borders(width)))
+}
+
+/// The names of layers, if there are several.
+pub fn several(layers: &[ImageLayer]) -> Vec<&'static str> {
+    if layers.len() > 1 { layers.iter().map(|layer| layer.name()).collect() } else { Vec::new() }
+}
+
+/// A feature for each object: its mask with its outline, or its polygons between these borders.
+fn layer(objects: &Arc<Objects>, crs: Option<Crs>, borders: Option<Borders>) -> Layer<'static> {
     let n = objects.all().len();
     let objects = Arc::clone(objects);
-    let is_mirrored = is_mirrored(objects.grid());
     let feature = move |index: usize| {
         let mask = match borders {
             Some(_) => None,
             None => objects.mask(index as u32).ok().map(Arc::new),
         };
-        let mut polygons = match (&borders, &mask) {
-            (Some(borders), _) => objects.polygons_between(index as u32, borders),
-            (None, Some(mask)) => outline(mask),
-            (None, None) => Vec::new(),
+        // Parts that meet at corners only are polygons of their own; that they hang together is for the mask to tell.
+        let polygons = match &borders {
+            Some(borders) => objects.polygons_between(index as u32, borders),
+            None => objects.polygons(index as u32),
         };
-        if is_mirrored {
-            polygons.iter_mut().flatten().for_each(|ring| ring[1..].reverse());
-        }
         Feature {
             index,
             polygons,
@@ -212,7 +229,8 @@ struct Drafter {
     tolerance: Option<f64>,
     radius_as_z: bool,
     are_bands: bool,
-    is_simplified: bool,
+    /// Whether the polygons of objects are other ones than those of their pixels.
+    has_borders: bool,
     objects: Arc<Objects>,
 }
 
@@ -228,7 +246,8 @@ impl Drafter {
         let layers = &self.layers;
         let has = |layer: ImageLayer| layers.contains(&layer);
         let graphs = [ImageLayer::Delaunay, ImageLayer::Crust, ImageLayer::Dual];
-        let moves = self.engine.smooth_border.is_some() || self.engine.retract.is_some();
+        // Borders of this object alone.
+        let moves = self.engine.retract.is_some();
         let needs_graph = graphs.into_iter().any(has) || (moves && has(ImageLayer::Border));
         let mut graph = None;
         let mut axis = None;
@@ -264,7 +283,7 @@ impl Drafter {
         };
         let border = || match &graph {
             Some(graph) if moves => graph.border(),
-            _ if self.is_simplified => feature.polygons.clone(),
+            _ if self.has_borders => feature.polygons.clone(),
             _ => self.objects.polygons(feature.index as u32),
         };
         let edges = |layer: ImageLayer| {

@@ -40,6 +40,7 @@ pub fn run(args: &'static OffsetArgs) -> Result<Status, Failure> {
         formats: FORMATS,
         columns: COLUMNS,
         engine: Some(args.engine),
+        layers: Vec::new(),
     };
     let format = plan.format()?;
     let input = run.open(&args.input)?;

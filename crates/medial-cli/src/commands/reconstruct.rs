@@ -46,6 +46,7 @@ pub fn run(args: &'static ReconstructArgs) -> Result<Status, Failure> {
         formats: POLYGONS,
         columns: COLUMNS,
         engine: Some(args.engine),
+        layers: Vec::new(),
     };
     let input = match run.opened(&args.input)? {
         Opened::Axes(input) => {

@@ -26,6 +26,8 @@ pub struct Plan {
     pub formats: &'static [Format],
     pub columns: &'static [&'static str],
     pub engine: Option<Engine>,
+    /// The names of layers, which records have in the column `layer`, if there are several.
+    pub layers: Vec<&'static str>,
 }
 
 /// Formats of lines.
@@ -86,7 +88,7 @@ impl Plan {
         quiet: bool,
     ) -> Result<Sink, Failure> {
         let head = head(format, record::header(self.columns), units);
-        Sink::create(self.target.output.as_deref(), format, head, crs, quiet)
+        Sink::of_layers(self.target.output.as_deref(), format, head, crs, &self.layers, quiet)
     }
 
     /// Calls `work` for each valid feature of an input and writes the records that it gives.

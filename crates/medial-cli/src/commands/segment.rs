@@ -27,6 +27,7 @@ pub fn run(args: &'static SegmentArgs) -> Result<Status, Failure> {
         formats: POLYGONS,
         columns: COLUMNS,
         engine: None,
+        layers: Vec::new(),
     };
     let is_picture = plan.asked()? == Format::Png;
     let format = if is_picture { Format::Png } else { plan.format()? };
@@ -81,9 +82,7 @@ pub fn run(args: &'static SegmentArgs) -> Result<Status, Failure> {
                 polygons.len().into(),
                 (n_rings - polygons.len()).into(),
             ];
-            // Sums of bands are rounded, and may leave their range with the last bit.
-            let within = |mean: f32| if are_bands { mean.clamp(0.0, 100.0) } else { mean };
-            values.extend(object.whole.mean.map(|mean| Value::from(f64::from(within(mean)))));
+            values.extend(object.whole.mean.map(|mean| Value::from(f64::from(mean))));
             values.push(color(object.whole.mean, are_bands));
             let record = Record { values, shape: Shape::Polygons(polygons) };
             Ok(timed(&mut stages.write, || {

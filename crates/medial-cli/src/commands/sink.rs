@@ -104,12 +104,27 @@ impl Sink {
         crs: Option<Crs>,
         quiet: bool,
     ) -> Result<Self, Failure> {
+        Self::of_layers(path, format, head, crs, &[], quiet)
+    }
+
+    /// The same for features of several layers, which become tables of their own if the format is a GeoPackage.
+    pub fn of_layers(
+        path: Option<&Path>,
+        format: Format,
+        head: String,
+        crs: Option<Crs>,
+        layers: &[&str],
+        quiet: bool,
+    ) -> Result<Self, Failure> {
         let output = Output::create(path)?;
         if let Some(lost) = lost(format, crs.as_ref()).filter(|_| !quiet) {
             crate::progress::line(&format!("warning: {}: {lost}", output.name()));
         }
         let table = match path {
-            Some(path) if format.is_table() => Some(Table::create(path, format, quiet)?),
+            Some(path) if format.is_table() => {
+                let layers = if format == Format::Gpkg { layers } else { &[] };
+                Some(Table::create(path, format, layers, quiet)?)
+            }
             _ => None,
         };
         Ok(Self { output, format, head, crs, begun: false, table, n_handles: 0 })

@@ -26,6 +26,7 @@ pub fn run(args: &'static SmoothArgs) -> Result<Status, Failure> {
         formats: POLYGONS,
         columns: COLUMNS,
         engine: Some(args.engine),
+        layers: Vec::new(),
     };
     let input = run.open_with(&args.input, Documents::AsPolygons)?;
     plan.run(run, input, move |_, domain, stages, options| {

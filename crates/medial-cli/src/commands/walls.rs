@@ -27,6 +27,7 @@ pub fn run(args: &'static WallsArgs) -> Result<Status, Failure> {
         formats: DRAWN_LINES,
         columns: COLUMNS,
         engine: Some(args.engine),
+        layers: Vec::new(),
     };
     let format = plan.format()?;
     let usual = WallOptions::between(args.min, args.max);

@@ -3,6 +3,7 @@ use super::*;
 use crate::field::Field;
 use crate::labels::Labels;
 use crate::selection::Selection;
+use medial::domain::{Domain, Options};
 use medial::geom::Point;
 use medial::raster::outline;
 use std::collections::BTreeSet;
@@ -16,10 +17,10 @@ fn objects(columns: u32, class: &[u32]) -> Objects {
     Objects::new(&labels, &labels.regions(&field), &chosen)
 }
 
-/// The area of a ring that runs with the shape on its left, seen with rows going up.
+/// The area of a ring that runs with the shape on its left.
 fn area(ring: &[Point]) -> f64 {
     let pairs = ring.iter().zip(ring.iter().cycle().skip(1));
-    -0.5 * pairs.map(|(a, b)| a.cross(*b)).sum::<f64>()
+    0.5 * pairs.map(|(a, b)| a.cross(*b)).sum::<f64>()
 }
 
 fn sides(ring: &[Point]) -> impl Iterator<Item = (Point, Point)> + '_ {
@@ -38,6 +39,21 @@ fn noise(columns: u32, rows: u32) -> Vec<u32> {
     let at = |k: u32| (f64::from(k % columns), f64::from(k / columns));
     let value = |(x, y): (f64, f64)| wave(x, y) + 1.5 * wave(0.13 * x + 1.0, 0.17 * y);
     (0..columns * rows).map(|k| (value(at(k)) + 9.0).floor() as u32).collect()
+}
+
+/// Fails unless each side of polygons is run through once each way, or lies on the frame of their image.
+fn assert_shared(polygons: &[Polygons], columns: u32, rows: u32) {
+    let mut ways: BTreeSet<[[u64; 2]; 2]> = BTreeSet::new();
+    for (a, b) in polygons.iter().flatten().flatten().flat_map(|ring| sides(ring)) {
+        let way = [a, b].map(|p| [p.x.to_bits(), p.y.to_bits()]);
+        assert!(ways.insert(way), "{a:?} {b:?}");
+    }
+    let is_frame = |[[a, c], [b, d]]: [[u64; 2]; 2]| {
+        let [a, b, c, d] = [a, b, c, d].map(f64::from_bits);
+        (a == b && (a == 0.0 || a == f64::from(columns)))
+            || (c == d && (c == 0.0 || c == -f64::from(rows)))
+    };
+    assert!(ways.iter().all(|&[a, b]| ways.contains(&[b, a]) || is_frame([a, b])));
 }
 
 #[test]
@@ -91,7 +107,7 @@ fn simplified_borders_fit_one_another_and_keep_their_distance() {
         let borders = objects.borders(tolerance);
         let mut total = 0.0;
         let mut n = 0;
-        let mut ways: BTreeSet<[[u64; 2]; 2]> = BTreeSet::new();
+        let mut all = Vec::new();
         for object in 0..objects.all().len() as u32 {
             let polygons = objects.polygons_between(object, &borders);
             let exact = objects.polygons(object);
@@ -108,20 +124,11 @@ fn simplified_borders_fit_one_another_and_keep_their_distance() {
                 let middles = rings.iter().flat_map(|ring| sides(ring));
                 let middles = middles.map(|(a, b)| (a + b) * 0.5);
                 assert!(middles.into_iter().all(|p| is_near(&p, exact)));
-                for (a, b) in rings.iter().flat_map(|ring| sides(ring)) {
-                    // Each side is run through once each way, or lies on the frame.
-                    let way = [a, b].map(|p| [p.x.to_bits(), p.y.to_bits()]);
-                    assert!(ways.insert(way), "{a:?} {b:?}");
-                }
             }
+            all.push(polygons);
         }
         assert_eq!(total, f64::from(columns * rows), "they fill the image");
-        let is_frame = |[[a, c], [b, d]]: [[u64; 2]; 2]| {
-            let [a, b, c, d] = [a, b, c, d].map(f64::from_bits);
-            (a == b && (a == 0.0 || a == f64::from(columns)))
-                || (c == d && (c == 0.0 || c == -f64::from(rows)))
-        };
-        assert!(ways.iter().all(|&[a, b]| ways.contains(&[b, a]) || is_frame([a, b])));
+        assert_shared(&all, columns, rows);
         assert!(n < before, "{n} corners at {tolerance}");
         before = n;
     }
@@ -135,4 +142,63 @@ fn without_tolerance_the_outline_gains_only_corners_of_others() {
     let corners = &outline(&mask)[0][0];
     assert_eq!(exact[0][0].len(), corners.len() + 1);
     assert!(exact[0][0].contains(&Point::new(2.0, -1.0)));
+}
+
+#[test]
+fn smoothed_borders_are_shared_and_cross_nothing() {
+    let (columns, rows) = (70, 50);
+    // Spots of all sizes, and squares of a pixel that meet at corners.
+    let checkers = (0..columns * rows).map(|k| (k % columns + k / columns) % 2).collect();
+    for class in [noise(columns, rows), checkers] {
+        let objects = objects(columns, &class);
+        for width in [0.4, 1.0, 3.0, 20.0] {
+            let borders = objects.smooth_borders(width);
+            let n = objects.all().len() as u32;
+            let all: Vec<_> = (0..n).map(|k| objects.polygons_between(k, &borders)).collect();
+            assert_shared(&all, columns, rows);
+            let total: f64 = all.iter().flatten().flatten().map(|ring| area(ring)).sum();
+            assert!((total - f64::from(columns * rows)).abs() < 1e-9, "they fill the image");
+            for (object, polygons) in (0..).zip(&all) {
+                let options = Options { repair: false, ..Options::default() };
+                let domain = Domain::from_polygons(polygons, &options);
+                assert!(domain.is_ok(), "{width}: {object}: {domain:?}");
+                let exact = objects.polygons(object);
+                for (rings, exact) in polygons.iter().zip(&exact) {
+                    assert_eq!(rings.len(), exact.len(), "the same rings");
+                    // Half a diagonal off a corner, and a move.
+                    let off = rings.iter().flatten().map(|p| distance(*p, exact));
+                    assert!(off.fold(0.0, f64::max) < 0.36);
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn smoothing_makes_a_slope_of_steps_and_leaves_what_is_straight() {
+    // A slope of two to one from frame to frame, and to its right a border along a column.
+    let (columns, rows) = (40, 30);
+    let class = |k: u32| match (k % columns, k / columns) {
+        (x, y) if x < 4 + y / 2 => 0,
+        (x, _) if x < 30 => 1,
+        _ => 2,
+    };
+    let class: Vec<u32> = (0..columns * rows).map(class).collect();
+    let objects = objects(columns, &class);
+    let off = |borders: &Borders| {
+        let slope = objects.polygons_between(0, borders);
+        let inner = slope[0][0].iter().filter(|p| p.x > 5.0 && (-25.0..-5.0).contains(&p.y));
+        // The line through the middles of the steps.
+        let off = inner.map(|p| ((p.x - 3.5) * 2.0 + p.y).abs() / 5.0_f64.sqrt());
+        off.fold(0.0, f64::max)
+    };
+    let [stepped, smooth] = [objects.borders(0.0), objects.smooth_borders(2.0)].map(|b| off(&b));
+    assert!(stepped > 0.4 && smooth < 0.05, "{stepped} {smooth}");
+    let borders = objects.smooth_borders(2.0);
+    let [between, right] = [1, 2].map(|k| objects.polygons_between(k, &borders));
+    assert!(right[0][0].iter().all(|p| p.x == 30.0 || p.x == 40.0 || p.y == 0.0 || p.y == -30.0));
+    // Where borders meet on the frame they stay.
+    for corner in [Point::new(4.0, 0.0), Point::new(30.0, 0.0), Point::new(30.0, -30.0)] {
+        assert!(between[0][0].contains(&corner), "{corner:?}");
+    }
 }

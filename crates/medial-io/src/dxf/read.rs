@@ -606,6 +606,7 @@ impl Item {
                 fill: FillRule::EvenOdd,
                 curves,
                 notes: self.notes,
+                points: None,
                 mask: None,
             }),
             Err(error) => Err(FeatureError { feature: index, id: self.id, error }),

@@ -1,8 +1,9 @@
 use super::quick::{self, Collection, Polygonal};
-use crate::json::{Members, Ring, parse, points, without_infinities};
+use crate::json::{Members, Position, Ring, parse, points, without_infinities};
 use crate::text::{lines, offset, syntax_at};
 use crate::{Crs, Error, Feature, FeatureError, Json, Layer, Part};
 use serde::Deserialize;
+use serde::de::IgnoredAny;
 use serde_json::value::RawValue;
 use std::borrow::Cow;
 use std::ops::Range;
@@ -188,6 +189,16 @@ fn read_geometry(
                 let inner = parse_object(text, raw.get())?;
                 read_geometry(text, raw.get(), &inner, feature, depth + 1)?;
             }
+        }
+        "Point" if depth == 0 => {
+            let at = coordinates()?.get();
+            let is_empty = parse::<Vec<IgnoredAny>>(text, at)?.is_empty();
+            let point = || parse::<Position>(text, at).map(|position| vec![position.0]);
+            feature.points = Some(if is_empty { Vec::new() } else { point()? });
+        }
+        "MultiPoint" if depth == 0 => {
+            let read = parse::<Ring>(text, coordinates()?.get())?;
+            feature.points = Some(read.into_iter().map(|position| position.0).collect());
         }
         kind @ ("Point" | "MultiPoint" | "LineString" | "MultiLineString") => {
             if depth > 0 {

@@ -5,6 +5,7 @@ mod read;
 mod write;
 
 pub use read::open;
+pub(crate) use write::Package;
 pub use write::write;
 
 /// A name as SQL has it.

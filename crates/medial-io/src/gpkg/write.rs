@@ -91,73 +91,99 @@ impl ToSql for Cell {
 /// # Errors
 /// If the system fails, or the name of the layer is reserved.
 pub fn write(path: &Path, table: &Table<'_>, rows: Rows<'_>) -> Result<Written, WriteError> {
-    if table.name.to_ascii_lowercase().starts_with("sqlite_") {
-        let why = format!(
-            "a layer of a GeoPackage cannot have the name `{}`, as those with `sqlite_` are reserved; name the file \
-             otherwise",
-            table.name
-        );
-        return Err(WriteError::unfit(why));
+    let mut package = Package::create(path, table.crs)?;
+    package.add(table, rows)?;
+    package.finish()
+}
+
+/// A GeoPackage that is being written.
+pub(crate) struct Package {
+    database: Connection,
+    /// The number of the reference system of all layers.
+    srs: i32,
+    written: Written,
+}
+
+impl Package {
+    /// A GeoPackage without layers in the place of a file.
+    pub fn create(path: &Path, crs: Option<&Crs>) -> Result<Self, WriteError> {
+        // What was there is no part of it.
+        std::fs::File::create(path)?;
+        let database = Connection::open(path)?;
+        // The file is not anybody's until it is complete, so there is nothing to go back to.
+        database.execute_batch(
+            "PRAGMA page_size = 4096; PRAGMA journal_mode = OFF; PRAGMA synchronous = OFF; \
+             PRAGMA locking_mode = EXCLUSIVE; PRAGMA cache_size = -65536; \
+             PRAGMA application_id = 1196444487; PRAGMA user_version = 10300; BEGIN;",
+        )?;
+        database.execute_batch(TABLES)?;
+        let srs = reference(&database, crs)?;
+        Ok(Self { database, srs, written: Written::default() })
     }
-    let mut written = Written::default();
-    // What was there is no part of it.
-    std::fs::File::create(path)?;
-    let mut database = Connection::open(path)?;
-    // The file is not anybody's until it is complete, so there is nothing to go back to.
-    database.execute_batch(
-        "PRAGMA page_size = 4096; PRAGMA journal_mode = OFF; PRAGMA synchronous = OFF; \
-         PRAGMA locking_mode = EXCLUSIVE; PRAGMA cache_size = -65536; \
-         PRAGMA application_id = 1196444487; PRAGMA user_version = 10300;",
-    )?;
-    let transaction = database.transaction()?;
-    transaction.execute_batch(TABLES)?;
-    let srs = reference(&transaction, table.crs)?;
-    let columns = table.schema.columns();
-    let names = names(table.schema, &mut written);
-    describe(&transaction, table, srs, &names)?;
-    let index = format!("rtree_{}_{GEOMETRY}", table.name);
-    transaction.execute_batch(&format!(
-        "CREATE VIRTUAL TABLE {} USING rtree(id, minx, maxx, miny, maxy)",
-        quoted(&index)
-    ))?;
-    {
-        let places = vec!["?"; columns.len() + 2].join(", ");
-        let insert = format!("INSERT INTO {} VALUES ({places})", quoted(table.name));
-        let mut insert = transaction.prepare(&insert)?;
-        let mut boxes = transaction
-            .prepare(&format!("INSERT INTO {} VALUES (?, ?, ?, ?, ?)", quoted(&index)))?;
-        let mut blob = Vec::new();
-        for (row, id) in rows.zip(1_i64..) {
-            let row = row?;
-            insert.raw_bind_parameter(1, id)?;
-            match &row.wkb {
-                Some(wkb) => {
-                    blob.clear();
-                    blob::write(srs, row.bounds, wkb, &mut blob);
-                    insert.raw_bind_parameter(2, blob.as_slice())?;
+
+    /// Adds a layer, with an index.
+    pub fn add(&mut self, table: &Table<'_>, rows: Rows<'_>) -> Result<(), WriteError> {
+        if table.name.to_ascii_lowercase().starts_with("sqlite_") {
+            let why = format!(
+                "a layer of a GeoPackage cannot have the name `{}`, as those with `sqlite_` are reserved; name the \
+                 file otherwise",
+                table.name
+            );
+            return Err(WriteError::unfit(why));
+        }
+        let Self { database, srs, written } = self;
+        let columns = table.schema.columns();
+        let names = names(table.schema, written);
+        describe(database, table, *srs, &names)?;
+        let index = format!("rtree_{}_{GEOMETRY}", table.name);
+        database.execute_batch(&format!(
+            "CREATE VIRTUAL TABLE {} USING rtree(id, minx, maxx, miny, maxy)",
+            quoted(&index)
+        ))?;
+        {
+            let places = vec!["?"; columns.len() + 2].join(", ");
+            let insert = format!("INSERT INTO {} VALUES ({places})", quoted(table.name));
+            let mut insert = database.prepare(&insert)?;
+            let mut boxes = database
+                .prepare(&format!("INSERT INTO {} VALUES (?, ?, ?, ?, ?)", quoted(&index)))?;
+            let mut blob = Vec::new();
+            for (row, id) in rows.zip(1_i64..) {
+                let row = row?;
+                insert.raw_bind_parameter(1, id)?;
+                match &row.wkb {
+                    Some(wkb) => {
+                        blob.clear();
+                        blob::write(*srs, row.bounds, wkb, &mut blob);
+                        insert.raw_bind_parameter(2, blob.as_slice())?;
+                    }
+                    None => insert.raw_bind_parameter(2, rusqlite::types::Null)?,
                 }
-                None => insert.raw_bind_parameter(2, rusqlite::types::Null)?,
-            }
-            for (cell, place) in row.cells.iter().zip(3..) {
-                insert.raw_bind_parameter(place, cell)?;
-            }
-            insert.raw_execute()?;
-            let [x, y, x_max, y_max] = row.bounds;
-            if row.wkb.is_some() && x <= x_max {
-                boxes.execute(params![id, x, x_max, y, y_max])?;
+                for (cell, place) in row.cells.iter().zip(3..) {
+                    insert.raw_bind_parameter(place, cell)?;
+                }
+                insert.raw_execute()?;
+                let [x, y, x_max, y_max] = row.bounds;
+                if row.wkb.is_some() && x <= x_max {
+                    boxes.execute(params![id, x, x_max, y, y_max])?;
+                }
             }
         }
+        let inside = |name: &str| name.replace('"', "\"\"");
+        let triggers = INDEX
+            .replace("\"I\"", &quoted(KEY))
+            .replace("\"C\"", &quoted(GEOMETRY))
+            .replace("rtree_T_C", &inside(&index))
+            .replace("\"T\"", &quoted(table.name));
+        database.execute_batch(&triggers)?;
+        Ok(())
     }
-    let inside = |name: &str| name.replace('"', "\"\"");
-    let triggers = INDEX
-        .replace("\"I\"", &quoted(KEY))
-        .replace("\"C\"", &quoted(GEOMETRY))
-        .replace("rtree_T_C", &inside(&index))
-        .replace("\"T\"", &quoted(table.name));
-    transaction.execute_batch(&triggers)?;
-    transaction.commit()?;
-    database.close().map_err(|(_, error)| error)?;
-    Ok(written)
+
+    /// Ends the file.
+    pub fn finish(self) -> Result<Written, WriteError> {
+        self.database.execute_batch("COMMIT")?;
+        self.database.close().map_err(|(_, error)| error)?;
+        Ok(self.written)
+    }
 }
 
 /// Names of the columns that differ where letter case does not matter, as SQL has it.

@@ -26,6 +26,11 @@ struct Shape<'a> {
 /// The properties of a feature, and its geometry.
 type Found = (Vec<(String, Cell)>, Option<Geometry>);
 
+/// The lines of a text that have something on them.
+pub(super) fn split(lines: &[u8]) -> impl Iterator<Item = &[u8]> {
+    lines.split(|&byte| byte == b'\n').filter(|line| !line.is_empty())
+}
+
 /// The properties and the geometry in a line.
 ///
 /// # Errors

@@ -4,12 +4,14 @@
 //! [`Schema`], and [`write()`] makes the file of them, row after row.
 
 mod geometry;
+mod layers;
 mod line;
 mod names;
 mod schema;
 mod spool;
 
 pub use geometry::{Geometry, GeometryKind, Place};
+pub use layers::Layers;
 pub use schema::{Cell, Column, Kind, Row, Schema};
 pub use spool::{Rows, Spool};
 
@@ -97,4 +99,22 @@ pub fn write(
         Format::Parquet => parquet::write(path, &table, rows),
         other => Err(WriteError::unfit(format!("the format {other} is no table"))),
     }
+}
+
+/// Writes the rows of several layers, each as a table of its own, to a GeoPackage, which is the one format of tables
+/// that has layers; else as [`write()`].
+///
+/// # Errors
+/// If the system fails, or the name of a layer is reserved; what was written is then no GeoPackage.
+pub fn write_layers(
+    path: &Path,
+    crs: Option<&Crs>,
+    layers: &mut Layers,
+) -> Result<Written, WriteError> {
+    let mut package = gpkg::Package::create(path, crs)?;
+    for (name, spool) in &mut layers.spools {
+        let schema = spool.schema().clone();
+        package.add(&Table { name, crs, schema: &schema }, spool.rows()?)?;
+    }
+    package.finish()
 }

@@ -1,4 +1,4 @@
-use super::{Cell, Row, Schema, line};
+use super::{Cell, Geometry, Row, Schema, line};
 use std::fs::File;
 use std::io::{self, BufReader, BufWriter, Read, Seek, Write};
 
@@ -38,27 +38,36 @@ impl Spool {
     /// # Errors
     /// If the system fails, or a line is no feature.
     pub fn add(&mut self, lines: &[u8]) -> io::Result<()> {
-        lines.split(|&byte| byte == b'\n').filter(|line| !line.is_empty()).try_for_each(|line| {
+        line::split(lines).try_for_each(|line| {
             let (cells, geometry) = line::read(line)?;
-            self.record.clear();
-            self.schema.n_rows += 1;
-            put_count(&mut self.record, cells.len());
-            for (name, cell) in &cells {
-                let number = self.schema.number(name);
-                self.schema.note(number, cell);
-                put_count(&mut self.record, number as usize);
-                put(&mut self.record, cell);
-            }
-            if let Some(geometry) = geometry {
-                let bounds = geometry.bounds();
-                self.schema.note_geometry(geometry.kind(), bounds);
-                bounds.iter().for_each(|value| self.record.extend(value.to_le_bytes()));
-                geometry.to_wkb(&mut self.record);
-            }
-            let size = u32::try_from(self.record.len()).map_err(io::Error::other)?;
-            self.file.write_all(&size.to_le_bytes())?;
-            self.file.write_all(&self.record)
+            self.push(&cells, geometry.as_ref())
         })
+    }
+
+    /// Adds a feature.
+    pub(super) fn push(
+        &mut self,
+        cells: &[(String, Cell)],
+        geometry: Option<&Geometry>,
+    ) -> io::Result<()> {
+        self.record.clear();
+        self.schema.n_rows += 1;
+        put_count(&mut self.record, cells.len());
+        for (name, cell) in cells {
+            let number = self.schema.number(name);
+            self.schema.note(number, cell);
+            put_count(&mut self.record, number as usize);
+            put(&mut self.record, cell);
+        }
+        if let Some(geometry) = geometry {
+            let bounds = geometry.bounds();
+            self.schema.note_geometry(geometry.kind(), bounds);
+            bounds.iter().for_each(|value| self.record.extend(value.to_le_bytes()));
+            geometry.to_wkb(&mut self.record);
+        }
+        let size = u32::try_from(self.record.len()).map_err(io::Error::other)?;
+        self.file.write_all(&size.to_le_bytes())?;
+        self.file.write_all(&self.record)
     }
 
     /// What is known of all rows.

@@ -48,6 +48,9 @@ fn geometry(scanner: &mut Scanner, feature: &mut Feature, depth: u32) -> Result<
     {
         scanner.take();
         feature.polygonal |= matches!(tag, Tag::Polygon | Tag::MultiPolygon);
+        if depth == 0 && matches!(tag, Tag::Points(_)) {
+            feature.points = Some(Vec::new());
+        }
         return Ok(());
     }
     match tag {
@@ -67,7 +70,8 @@ fn geometry(scanner: &mut Scanner, feature: &mut Feature, depth: u32) -> Result<
             let points = ring(scanner)?;
             line(points, feature, depth);
         }
-        Tag::Other(name) => {
+        Tag::Points(_) if depth == 0 => feature.points = Some(points(scanner)?),
+        Tag::Points(name) | Tag::Other(name) => {
             skip(scanner)?;
             if depth > 0 {
                 feature.leave_out(name);
@@ -109,6 +113,35 @@ fn ring(scanner: &mut Scanner) -> Result<Vec<Point>, Error> {
         Ok(())
     })?;
     Ok(points)
+}
+
+/// The point of a POINT, or those of a MULTIPOINT, each within brackets or not.
+fn points(scanner: &mut Scanner) -> Result<Vec<Point>, Error> {
+    let mut points = Vec::new();
+    list(scanner, |scanner| match scanner.peek() {
+        Token::Word(word) if word.eq_ignore_ascii_case("empty") => {
+            scanner.take();
+            Ok(())
+        }
+        Token::Open => {
+            scanner.take();
+            points.push(point(scanner)?);
+            scanner.expect(Token::Close, "`)`")
+        }
+        _ => {
+            points.push(point(scanner)?);
+            Ok(())
+        }
+    })?;
+    Ok(points)
+}
+
+fn point(scanner: &mut Scanner) -> Result<Point, Error> {
+    let point = Point::new(scanner.finite()?, scanner.finite()?);
+    while let Token::Word(_) = scanner.peek() {
+        scanner.number()?;
+    }
+    Ok(point)
 }
 
 /// `( item, item, … )` or `EMPTY`.
@@ -158,15 +191,15 @@ enum Tag {
     MultiPolygon,
     Collection,
     LineString,
+    Points(&'static str),
     Other(&'static str),
 }
 
 impl Tag {
     /// The kind of geometry a word names, with or without Z and M at its end.
     fn of(word: &str) -> Option<Self> {
-        const OTHERS: [&str; 10] = [
-            "POINT",
-            "MULTIPOINT",
+        const POINTS: [&str; 2] = ["POINT", "MULTIPOINT"];
+        const OTHERS: [&str; 8] = [
             "MULTILINESTRING",
             "CIRCULARSTRING",
             "COMPOUNDCURVE",
@@ -183,7 +216,10 @@ impl Tag {
             "MULTIPOLYGON" => Some(Self::MultiPolygon),
             "GEOMETRYCOLLECTION" => Some(Self::Collection),
             "LINESTRING" | "LINEARRING" => Some(Self::LineString),
-            name => OTHERS.into_iter().find(|&other| other == name).map(Self::Other),
+            name => {
+                let known = |names: &[&'static str]| names.iter().copied().find(|&n| n == name);
+                known(&POINTS).map(Self::Points).or_else(|| known(&OTHERS).map(Self::Other))
+            }
         })
     }
 
@@ -193,7 +229,7 @@ impl Tag {
             Self::MultiPolygon => "MULTIPOLYGON",
             Self::Collection => "GEOMETRYCOLLECTION",
             Self::LineString => "LINESTRING",
-            Self::Other(name) => name,
+            Self::Points(name) | Self::Other(name) => name,
         }
     }
 }

@@ -102,6 +102,16 @@ impl<'a> Scanner<'a> {
         Err(self.expected("a number"))
     }
 
+    /// The next token as a number that is finite.
+    pub fn finite(&mut self) -> Result<f64, Error> {
+        match self.peek() {
+            Token::Word(word) if word.parse().is_ok_and(|value: f64| !value.is_finite()) => {
+                Err(self.expected("a finite number"))
+            }
+            _ => self.number(),
+        }
+    }
+
     /// The byte at which it is.
     pub fn place(&self) -> usize {
         self.byte

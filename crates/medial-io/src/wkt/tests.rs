@@ -109,8 +109,10 @@ fn reading_goes_on_after_an_error() {
 fn deep_nesting_is_refused_and_not_followed() {
     let text = "GEOMETRYCOLLECTION(".repeat(100_000);
     assert!(error(&text).contains("at most 32 nested collections"));
-    let text = format!("POINT {}", "(".repeat(1_000_000));
+    let text = format!("TIN {}", "(".repeat(1_000_000));
     assert!(error(&text).contains("expected `)`"));
+    let text = format!("MULTIPOINT {}", "(".repeat(1_000_000));
+    assert!(error(&text).contains("expected a number, found `(`"));
 }
 
 #[test]

@@ -46,10 +46,14 @@ struct Tiff<'b> {
 }
 
 fn wrong(error: TiffError) -> Error {
-    let why = format!(
-        "the image cannot be read: {error}; save it anew, as gdal_translate -co COMPRESS=DEFLATE does"
-    );
-    Error::File { why }
+    let way = match error {
+        // What samples are, not how they are stored.
+        TiffError::UnsupportedError(_) => {
+            "save it in grey or RGB, of whole or floating-point numbers"
+        }
+        _ => "save it anew, as gdal_translate -co COMPRESS=DEFLATE does",
+    };
+    Error::File { why: format!("the image cannot be read: {error}; {way}") }
 }
 
 /// Opens a TIFF image.

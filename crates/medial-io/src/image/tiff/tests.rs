@@ -262,3 +262,50 @@ fn a_compression_that_is_not_read_is_named() {
     assert!(error.to_string().contains("ZSTD (50000)"), "{error}");
     assert!(error.to_string().contains("COMPRESS=DEFLATE"), "{error}");
 }
+
+/// A JPEG stream of 8 by 8 pixels of red 200, green 60 and blue 30, as a brightness and two differences.
+const JPEG: &str = "\
+    ffd8ffdb004300020101010101020101010202020202040302020202050404030406050606060506060607 \
+    0908060709070606080b08090a0a0a0a0a06080b0c0b0a0c090a0a0affdb00430102020202020205030305 \
+    0a0706070a0a0a0a0a0a0a0a0a0a0a0a0a0a0a0a0a0a0a0a0a0a0a0a0a0a0a0a0a0a0a0a0a0a0a0a0a0a0a \
+    0a0a0a0a0a0a0a0a0a0a0affc00011080008000803012200021101031101ffc40015000101000000000000 \
+    00000000000000000007ffc40014100100000000000000000000000000000000ffc4001501010100000000 \
+    000000000000000000000809ffc40014110100000000000000000000000000000000ffda000c0301000211 \
+    0311003f00838031a903ffd9";
+
+#[test]
+fn brightness_and_differences_in_jpeg_become_colours() {
+    let digit = |byte: u8| char::from(byte).to_digit(16).map(|digit| digit as u8);
+    let digits: Vec<u8> = JPEG.bytes().filter_map(digit).collect();
+    let stream: Vec<u8> = digits.chunks(2).map(|pair| 16 * pair[0] + pair[1]).collect();
+    let of = |meaning: u16| {
+        let more =
+            vec![(259, Short(vec![7])), (262, Short(vec![meaning])), (530, Short(vec![2, 2]))];
+        file(8, 8, 3, 8, &stream, more)
+    };
+    let is_near = |values: [f32; 3], expected: [f32; 3]| {
+        values.iter().zip(expected).all(|(value, wanted)| (value - wanted).abs() < 2.0)
+    };
+    let read = colours(&of(6), &[]);
+    assert_eq!((read.are_bands, read.values.len()), (false, 64));
+    assert!(read.values.iter().all(|v| is_near(v.map(|v| 255.0 * v), [200.0, 60.0, 30.0])));
+    assert!(is_near(colours(&of(6), &[1, 2, 3]).values[0], [200.0, 60.0, 30.0]));
+    // 0.2126 of red, 0.7152 of green and 0.0722 of blue are 87.6.
+    assert!(cells(&of(6), 85.0)[0] && !cells(&of(6), 90.0)[0]);
+    // The same stream, if the file says that it is red, green and blue: nothing is turned into a colour.
+    assert!(is_near(colours(&of(2), &[1, 2, 3]).values[0], [98.4, 89.4, 200.5]));
+}
+
+#[test]
+fn samples_that_are_no_colours_are_told_with_a_way_out() {
+    // Complex numbers, and the brightness and two differences of the eye.
+    for more in [vec![(262, Short(vec![1])), (339, Short(vec![6]))], vec![(262, Short(vec![8]))]] {
+        let each = if more.len() == 1 { 3 } else { 1 };
+        let error = read_colours(Format::Tiff, &file(1, 1, each, 8, &[1; 3], more), &[]);
+        let error = error.unwrap_err().to_string();
+        assert!(
+            error.ends_with("; save it in grey or RGB, of whole or floating-point numbers"),
+            "{error}"
+        );
+    }
+}

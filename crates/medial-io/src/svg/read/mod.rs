@@ -146,6 +146,7 @@ impl Drawn {
                 fill: self.fill,
                 curves,
                 notes: self.notes,
+                points: None,
                 mask: None,
             }),
             Err(error) => Err(FeatureError { feature: index, id: self.id, error }),

@@ -299,11 +299,14 @@ impl<'a> DelaunayDual<'a> {
         self.samples.rings.iter().map(ring).collect()
     }
 
-    /// The border as it was sampled, smoothed or drawn back: polygons of samples in the plane of the input, each of rings,
-    /// the outer one first; of the outside a polygon for each ring.
+    /// The border as it was sampled, smoothed or drawn back: polygons of samples in the plane of the input, each of rings
+    /// with the shape on their left, the outer one first; of the outside a polygon for each ring.
     #[must_use]
     pub fn border(&self) -> Vec<Vec<Vec<Point>>> {
-        let rings = self.samples();
+        let mut rings = self.samples();
+        if self.plane.is_mirrored() {
+            rings.iter_mut().for_each(|ring| ring[1..].reverse());
+        }
         // The polygon of each ring, and whether the ring is a hole of it.
         let of: Vec<(u32, bool)> = match &self.source {
             Source::Domain(domain) => {
