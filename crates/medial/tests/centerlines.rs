@@ -6,7 +6,7 @@ use medial::axis::MedialAxis;
 use medial::domain::{self, Domain};
 use medial::engine::path_tracing;
 use medial::geom::Point;
-use medial::ops::{Centerline, CenterlineOptions, Extension, Hierarchy, centerlines};
+use medial::ops::{Centerline, CenterlineOptions, Extension, Hierarchy, Measure, centerlines};
 use support::random::{self, Family, Ground, Random};
 use support::shapes;
 
@@ -170,5 +170,47 @@ fn no_two_points_of_random_shapes_are_farther_apart() {
         let expected = if line.is_closed() { all } else { most };
         assert!(line.is_best, "{}", wkt());
         assert!((length / expected - 1.0).abs() < 1e-12, "{length} of {expected}: {}", wkt());
+    }
+}
+
+/// A rectangle from a corner on.
+fn rectangle(x: f64, y: f64, width: f64, height: f64) -> Vec<Vec<Point>> {
+    let corners = [(x, y), (x + width, y), (x + width, y + height), (x, y + height)];
+    vec![corners.map(|(x, y)| Point::new(x, y)).to_vec()]
+}
+
+#[test]
+fn a_part_that_prunes_to_a_point_comes_after_those_that_do_not() {
+    // Its whole axis is longer than the spine of the rectangle, which its corners leave by 1.99.
+    let parts = [rectangle(50.0, 0.0, 2.0, 2.0), rectangle(0.0, 0.0, 40.0, 34.0)];
+    let domain = Domain::from_polygons(&parts, &domain::Options::default()).unwrap();
+    let axis = path_tracing(&domain).unwrap();
+    for count in [1, 2] {
+        let options = CenterlineOptions { count, ..CenterlineOptions::default() };
+        let lines = centerlines(&domain, &axis, &options).unwrap();
+        assert_eq!(lines.len(), count);
+        assert!(lines[0].curves.iter().all(|curve| curve.from().x < 41.0), "{lines:?}");
+        let alone = lines.get(1).map(|line| line.length());
+        assert!(alone.is_none_or(|length| (length - 8.0_f64.sqrt()).abs() < 1e-12), "{alone:?}");
+    }
+}
+
+#[test]
+fn what_rounding_leaves_of_a_point_is_no_line() {
+    // A square that is turned and moved: its corners burn up to the middle, but for rounding.
+    let corners = [(2.6, 0.2), (-0.2, 2.6), (-2.6, -0.2), (0.2, -2.6)];
+    let ring: Vec<Point> = corners.iter().map(|(x, y)| Point::new(1000.1 + x, y - 77.7)).collect();
+    let domain = Domain::from_polygons(&[vec![ring]], &domain::Options::default()).unwrap();
+    let axis = path_tracing(&domain).unwrap();
+    for (measure, threshold) in
+        [(Measure::Potential, 3.9), (Measure::Erosion, 1.0), (Measure::RelativeExcess, 0.5)]
+    {
+        for count in [1, 2] {
+            let ends = (measure, threshold);
+            let options = CenterlineOptions { count, ends, ..CenterlineOptions::default() };
+            let lines = centerlines(&domain, &axis, &options).unwrap();
+            assert!(lines.iter().all(|line| line.length() > 1.0), "{measure}: {lines:?}");
+            assert!(!lines.is_empty());
+        }
     }
 }

@@ -48,7 +48,12 @@ pub fn run(args: &'static CenterlineArgs) -> Result<Status, Failure> {
             })
             .map_err(|error| Entry::no_line(&error))?;
             if lines.is_empty() {
-                let why = "no line is wide enough for the text; take a smaller --height";
+                let why = match asked.route {
+                    Route::Label { .. } => {
+                        "no line is wide enough for the text; take a smaller --height"
+                    }
+                    _ => "what is left of the axis has no line; take a smaller --prune",
+                };
                 return Err(Entry::refused("no_line", why));
             }
             if format == Format::Svg {

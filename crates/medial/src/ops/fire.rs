@@ -148,33 +148,6 @@ impl Fire {
         self.order.len() == self.ways.len()
     }
 
-    /// The tree of each path of an axis that burns all, and how many there are.
-    pub fn trees(&self) -> (Vec<u32>, usize) {
-        let mut n = 0;
-        let mut new = || {
-            n += 1;
-            n - 1
-        };
-        let mut tree_of = vec![NONE; self.n_places];
-        let mut trees = vec![NONE; self.ways.len()];
-        for &(path, _, ends) in &self.both {
-            let tree = new();
-            trees[path as usize] = tree;
-            ends.iter().for_each(|&end| tree_of[end as usize] = tree);
-        }
-        // From the roots outwards.
-        for (place, step) in self.steps.iter().enumerate().rev() {
-            let next = &mut tree_of[step.next as usize];
-            if *next == NONE {
-                *next = new();
-            }
-            let tree = *next;
-            tree_of[place] = tree;
-            trees[step.dart as usize / 2] = tree;
-        }
-        (trees, n as usize)
-    }
-
     /// Lists the steps, and gives places to the keypoints on their ways.
     fn find_places(&mut self, paths: &[Path]) {
         let mut places = vec![NONE; self.times.len()];

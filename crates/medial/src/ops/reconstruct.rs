@@ -218,8 +218,9 @@ fn disk(centre: Point, radius: f64) -> Disk {
 
 /// Disks along a curve from its start to its end, at equal shares of its parameter.
 fn samples(curve: &Curve, step: f64) -> Vec<Disk> {
+    let pieces = (curve.length() / step).ceil();
     // A curve without length and a step of nothing have no quotient.
-    let pieces = (curve.length() / step).ceil().max(1.0).min(MAX_PIECES);
+    let pieces = if pieces.is_nan() { 1.0 } else { pieces.clamp(1.0, MAX_PIECES) };
     let at = |k: u32| f64::from(k) / pieces;
     (0..=pieces as u32).map(|k| disk(curve.point_at(at(k)), curve.radius_at(at(k)))).collect()
 }
@@ -316,7 +317,7 @@ fn hull(ends: &[Disk; 2], tolerance: f64) -> Option<Part> {
         let half = (1.0 - tolerance / disk.radius).clamp(-1.0, 1.0).acos();
         // Whatever the tolerance, no chord cuts off more than a sixth of a circle.
         let n = (0.5 * sweep / half).max(3.0 * sweep / std::f64::consts::PI);
-        let n = if disk.radius > 0.0 { n.ceil().max(1.0).min(MAX_PIECES) } else { 0.0 };
+        let n = if disk.radius > 0.0 { n.ceil().clamp(1.0, MAX_PIECES) } else { 0.0 };
         for k in 0..=n as u32 {
             let (sin, cos) = (sweep * f64::from(k) / n.max(1.0)).sin_cos();
             let p = disk.centre + (start * cos + start.perp() * sin) * disk.radius;

@@ -100,20 +100,6 @@ impl<'a> Rest<'a> {
         self.error = self.error.max(other.error);
     }
 
-    /// The same, but all of some paths.
-    pub fn whole_where(&self, is_whole: impl Fn(u32) -> bool) -> Self {
-        let mut rest = Self { error: self.error, ..Self::of(self.axis) };
-        for &(path, part) in self.cut.iter().filter(|&&(path, _)| !is_whole(path)) {
-            *rest.part(path) = part;
-        }
-        rest
-    }
-
-    /// Whether more is left of a path than a root, if that.
-    pub fn is_longer_than_a_point(&self, path: u32) -> bool {
-        self.tips(path).is_none_or(|(_, tips)| tips.is_some())
-    }
-
     /// The axis of which this is left.
     pub fn axis(&self) -> &'a MedialAxis {
         self.axis
@@ -150,27 +136,6 @@ impl<'a> Rest<'a> {
         }
         let sites = [turned.left, turned.right].map(|site| self.axis.site_shape(site));
         self.axis.curve_between(&sites, ends)
-    }
-
-    /// Whether a component has come down to a single point.
-    pub fn has_points(&self, roots: &[u32]) -> bool {
-        let is_point = |&(_, [low, high]): &(u32, [f64; 2])| is_root(low, high);
-        let Self { axis, places, cut, .. } = self;
-        if cut.iter().any(is_point) {
-            return true;
-        }
-        if roots.is_empty() {
-            return false;
-        }
-        let mut is_met = vec![false; axis.keypoints().len()];
-        for (&place, [from, to]) in places.iter().zip(axis.paths().all_ends()) {
-            let [low, high] = if place == WHOLE { ALL } else { cut[place as usize].1 };
-            if low < high {
-                is_met[from as usize] |= low == 0.0;
-                is_met[to as usize] |= high == 1.0;
-            }
-        }
-        roots.iter().any(|&root| !is_met[root as usize])
     }
 
     /// Whether all is kept.

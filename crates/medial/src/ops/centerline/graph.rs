@@ -5,7 +5,7 @@ use std::collections::BinaryHeap;
 
 use super::line::Centerline;
 use crate::axis::MedialAxis;
-use crate::geom::Point;
+use crate::geom::{DisjointSets, Point};
 use crate::ops::groups::Groups;
 
 /// A graph of pieces of paths.
@@ -373,10 +373,36 @@ impl<'a> Graph<'a> {
     }
 }
 
-/// The paths of all components of an axis of which a single point is left.
-pub(super) fn paths_of_points(pruned: &MedialAxis, axis: &MedialAxis) -> Vec<u32> {
-    let degrees = pruned.degrees();
-    if !degrees.contains(&0) {
+/// The paths that are left of an axis, but for components of which no more is left than a length that is tiny,
+/// a single point mostly; and all paths of these.
+pub(super) fn parts(pruned: &MedialAxis, axis: &MedialAxis, tiny: f64) -> [Vec<u32>; 2] {
+    let n = pruned.keypoints().len();
+    let mut sets = DisjointSets::new(n);
+    for [from, to] in pruned.paths().all_ends() {
+        sets.join(from, to);
+    }
+    let mut lengths = vec![0.0; n];
+    for [from, to] in pruned.paths().all_ends() {
+        let chord = (pruned.disk(from).0 - pruned.disk(to).0).norm();
+        lengths[sets.first(from) as usize] += if from == to { f64::INFINITY } else { chord };
+    }
+    let is_long: Vec<bool> =
+        (0..n as u32).map(|k| lengths[sets.first(k) as usize] > tiny).collect();
+    let left = (0..).zip(pruned.paths().all_ends());
+    let left =
+        left.filter(|(_, [from, _])| is_long[*from as usize]).map(|(path, _)| path).collect();
+    let points = (0..).zip(&is_long).filter(|(_, is_long)| !**is_long).map(|(k, _)| k);
+    [left, paths_around(points, pruned, axis)]
+}
+
+/// All paths of an axis in the components of some keypoints of what is left of it.
+fn paths_around(
+    keypoints: impl Iterator<Item = u32>,
+    pruned: &MedialAxis,
+    axis: &MedialAxis,
+) -> Vec<u32> {
+    let mut keypoints = keypoints.peekable();
+    if keypoints.peek().is_none() {
         return Vec::new();
     }
     let mut path_of = vec![NONE; axis.sites().len()];
@@ -388,9 +414,8 @@ pub(super) fn paths_of_points(pruned: &MedialAxis, axis: &MedialAxis) -> Vec<u32
     let mut all = (0_u32..).zip(axis.sites().in_order());
     let same = |site| all.find(|(_, other)| *other == site).map(|(number, _)| number);
     let numbers: Vec<Option<u32>> = pruned.sites().in_order().map(same).collect();
-    let alone = |&(_, degree): &(u32, u32)| degree == 0;
-    let tips = (0..).zip(degrees).filter(alone).map(|(tip, _)| pruned.governors(tip)[0]);
-    let paths = tips.filter_map(|site| numbers[site as usize].map(|k| path_of[k as usize]));
+    let sites = keypoints.map(|keypoint| pruned.governors(keypoint)[0]);
+    let paths = sites.filter_map(|site| numbers[site as usize].map(|k| path_of[k as usize]));
     let starts = paths.filter(|&path| path != NONE).map(|path| axis.paths().at(path).from);
     let incidence = Groups::paths_at_keypoints(axis);
     let mut is_met = vec![false; axis.paths().len()];

@@ -154,15 +154,15 @@ struct Peeled {
     by: u32,
 }
 
-/// The longest way between two ends of what is left of an axis, if there are no cycles, given the lengths of
-/// paths that are whole.
+/// The longest way between two ends of what is left of an axis, if there are no cycles, and its length, given the
+/// lengths of paths that are whole.
 ///
 /// # Errors
 /// If there are.
 pub(super) fn in_forest(
     rest: &Rest<'_>,
     length: impl Fn(u32) -> f64,
-) -> Result<Option<Centerline>, HasCycles> {
+) -> Result<Option<(f64, Centerline)>, HasCycles> {
     let axis = rest.axis();
     let n_keypoints = axis.keypoints().len();
     let nothing = Peeled { left: 0, numbers: 0, reach: 0.0, by: NONE };
@@ -235,7 +235,7 @@ pub(super) fn in_forest(
     let mut curves: Vec<_> = down(ways[0]).iter().rev().map(|curve| curve.reversed()).collect();
     curves.extend(down(ways[1]));
     let line = Centerline { curves, extensions: [None; 2], is_best: true, is_free: [true; 2] };
-    Ok((length > 0.0).then_some(line))
+    Ok((length > 0.0).then_some((length, line)))
 }
 
 /// Some paths of an axis make a cycle.

@@ -15,7 +15,8 @@
 //!
 //! # Method
 //! 1. Ends: corners below a relative excess are pruned (`hierarchy/mod.rs`). A component that is pruned to a
-//!    single point keeps its whole axis instead.
+//!    single point, or to no more than rounding leaves, keeps its whole axis instead; for the longest line it
+//!    comes after all others.
 //! 2. What is left is a graph of pieces of paths (`graph.rs`), in which the best way of each component is
 //!    looked for (`longest.rs`, `label.rs`, `between.rs`).
 //! 3. Further lines are the best ones that use no piece of those before.
@@ -40,7 +41,7 @@ use super::measure::Measure;
 use super::rest::{Origin, Pruned, Rest};
 use crate::axis::MedialAxis;
 use crate::domain::Domain;
-use crate::geom::Point;
+use crate::geom::{Point, Rect};
 use graph::{Graph, Way};
 use longest::HasCycles;
 
@@ -147,7 +148,9 @@ pub enum CenterlineError {
 
 /// The main lines of a shape, the best first.
 ///
-/// A component that is pruned to a single point has the best way through its whole axis.
+/// A component that is pruned to a single point has the best way through its whole axis; among the longest
+/// lines it comes after those of all others. Around cycles a line may be longer than one before, as it uses no
+/// piece of those.
 ///
 /// ```
 /// use medial::domain::{Domain, Options};
@@ -210,27 +213,26 @@ impl Hierarchy<'_> {
         best_lines(self, &rest.finish(&self.fire.roots, &lost), options)
     }
 
-    /// The longest line through what is left of an axis without cycles.
+    /// The longest line through what is left of an axis without cycles; through all of it if that is no more than
+    /// points.
     fn longest_in_forest(&self, rest: &Rest<'_>) -> Result<Option<Centerline>, HasCycles> {
         if !self.fire.is_all() {
             return Err(HasCycles);
         }
         let length = |path: u32| self.fire.lengths[path as usize];
-        if rest.has_points(&self.fire.roots) {
-            longest::in_forest(&self.without_points(rest), length)
-        } else {
-            longest::in_forest(rest, length)
-        }
+        let line = match longest::in_forest(rest, length)? {
+            Some((length, line)) if length > self.tiny() => Some((length, line)),
+            _ => longest::in_forest(&Rest::of(self.axis), length)?,
+        };
+        Ok(line.map(|(_, line)| line))
     }
 
-    /// The same, but all of each tree of which a single point is left.
-    fn without_points<'r>(&self, rest: &Rest<'r>) -> Rest<'r> {
-        let (trees, n_trees) = self.fire.trees();
-        let mut is_left = vec![false; n_trees];
-        for (&tree, path) in trees.iter().zip(0..) {
-            is_left[tree as usize] |= rest.is_longer_than_a_point(path);
-        }
-        rest.whole_where(|path| !is_left[trees[path as usize] as usize])
+    /// A length that rounding may leave of what is pruned to a point.
+    fn tiny(&self) -> f64 {
+        /// As a share of the coordinates.
+        const ROUNDING: f64 = 1.0 / (1_u64 << 40) as f64;
+        let Rect { min, max } = self.given.bounds();
+        ROUNDING * [min.x, min.y, max.x, max.y].map(f64::abs).into_iter().fold(0.0, f64::max)
     }
 }
 
@@ -241,9 +243,8 @@ fn best_lines(
     options: &CenterlineOptions,
 ) -> Result<Vec<Centerline>, CenterlineError> {
     let (domain, axis) = (hierarchy.given, hierarchy.axis);
-    let all: Vec<u32> = (0..pruned.paths().len() as u32).collect();
-    let of_points = graph::paths_of_points(pruned, axis);
-    let parts = [(pruned, &all[..]), (axis, &of_points[..])];
+    let [left, of_points] = graph::parts(pruned, axis, hierarchy.tiny());
+    let parts = [(pruned, &left[..]), (axis, &of_points[..])];
     let count = options.count;
     let lines = match &options.route {
         Route::Between(points) => {
@@ -256,15 +257,15 @@ fn best_lines(
                 _ => pruned.length_of(&pruned.paths().at(path)),
             };
             let graphs = [
-                Graph::whole(pruned, &all, length),
+                Graph::whole(pruned, &left, length),
                 Graph::whole(axis, &of_points, |path| hierarchy.fire.lengths[path as usize]),
             ];
-            ranked(graphs, count, longest::way)
+            ranked(graphs, count, longest::way, true)
         }
         Route::Label { height } => {
             let height = height.unwrap_or_else(|| pruned.radius_max());
             let graphs = parts.map(|(axis, paths)| label::graph(axis, paths, height));
-            ranked(graphs, count, |graph, component| label::way(graph, component, height))
+            ranked(graphs, count, |graph, component| label::way(graph, component, height), false)
         }
     };
     Ok(lines.into_iter().map(|line| extended(domain, line, options)).collect())
@@ -284,11 +285,13 @@ struct Component {
     way: Way,
 }
 
-/// The best ways through some graphs, each without the pieces of those before.
+/// The best ways through two graphs, each without the pieces of those before; those through the second one after
+/// all through the first, if these come first.
 fn ranked<'a>(
     mut graphs: [Graph<'a>; 2],
     count: usize,
     best: impl Fn(&Graph<'a>, &[u32]) -> Option<Way>,
+    first_comes_first: bool,
 ) -> Vec<Centerline> {
     let mut left = Vec::new();
     for (number, graph) in graphs.iter_mut().enumerate() {
@@ -297,10 +300,13 @@ fn ranked<'a>(
     }
     let mut lines = Vec::new();
     while lines.len() < count {
-        let value = |k: usize| -> f64 { left[k].way.value };
-        let Some(first) = (0..left.len()).max_by(|&a, &b| value(a).total_cmp(&value(b))) else {
-            break;
+        let order = |&a: &usize, &b: &usize| {
+            let ([a, b], numbers) = ([&left[a], &left[b]], [left[b].graph, left[a].graph]);
+            let by_graph = numbers[0].cmp(&numbers[1]);
+            let by_value = a.way.value.total_cmp(&b.way.value);
+            if first_comes_first { by_graph.then(by_value) } else { by_value }
         };
+        let Some(first) = (0..left.len()).max_by(order) else { break };
         let Component { graph: number, nodes, way } = left.swap_remove(first);
         let graph = &mut graphs[number];
         graph.take(&way);
