@@ -373,3 +373,62 @@ fn rings_that_touch_stay_rings() {
         assert!(Domain::from_polygons(&polygons, &strict).is_ok(), "{name}");
     }
 }
+
+#[cfg(feature = "union")]
+#[test]
+fn the_union_of_linked_disks_is_as_near_as_they_are() {
+    use medial::ops::{compress, union_of_linked_disks};
+    let mut checked = 0;
+    for name in shapes::names() {
+        let domain = shapes::domain(&name);
+        if domain.edges().len() > 200 {
+            continue;
+        }
+        let axis = path_tracing(&domain).unwrap();
+        let size = domain.bounds().max - domain.bounds().min;
+        let Ok(graph) = compress(&domain, &axis, 0.01 * size.x.max(size.y)) else { continue };
+        let tolerance = 0.125 * graph.error();
+        let polygons = union_of_linked_disks(&graph.axis().unwrap(), tolerance);
+        // Where the shape is thinner than the disks are right nothing is left of it.
+        if graph.disks().iter().any(|disk| disk.radius == 0) {
+            continue;
+        }
+        let walks = polygons_of(&axis).unwrap().concat();
+        let distance = boundary_distance(&walks, &polygons.concat(), 0.01 * tolerance);
+        assert!(distance <= graph.error() + 1.01 * tolerance, "{name}: {distance}");
+        checked += 1;
+    }
+    assert!(checked > 10, "{checked}");
+}
+
+#[cfg(feature = "union")]
+#[test]
+fn a_loop_without_length_is_a_point() {
+    use medial::ops::{compress, disks, union_of_disks, union_of_linked_disks};
+    // A ring that is a single disk within the error, with a link to itself.
+    let domain = shapes::wkt("POLYGON ((0 0, 6 0, 6 6, 0 6, 0 0), (2 2, 4 2, 4 4, 2 4, 2 2))");
+    let graph = compress(&domain, &path_tracing(&domain).unwrap(), 10.0).unwrap();
+    assert_eq!((graph.disks().len(), graph.links().count()), (1, 1));
+    let axis = graph.axis().unwrap();
+    let disks = disks(&axis, 0.0);
+    assert_eq!(disks.len(), 1);
+    assert!(
+        tangent_polygons(&axis, 0.0).unwrap().concat().concat().iter().all(|p| p.x.is_finite())
+    );
+    assert_eq!(union_of_disks(&disks, 0.0), union_of_linked_disks(&axis, 0.0));
+}
+
+#[test]
+fn arcs_around_what_rounding_makes_a_point_have_places() {
+    // The last disks that are left are smaller than the ulp of the coordinates.
+    let domain = shapes::wkt(
+        "POLYGON ((1e7 -3e7, 10000007.785867814 -29999999.63259036, \
+         10000000.146997092 -29999995.838274453, 9999998.105150495 -29999998.444729164, 1e7 -3e7))",
+    );
+    let axis = path_tracing(&domain).unwrap();
+    for threshold in [1e-9, 3e-9, 1e-8, 3e-8] {
+        let smooth = smoothed(&domain, &axis, Measure::Chord, threshold).unwrap();
+        let points = smooth.outline.polygons(1e-3).concat().concat();
+        assert!(!points.is_empty() && points.iter().all(|p| p.x.is_finite() && p.y.is_finite()));
+    }
+}

@@ -156,3 +156,22 @@ fn samples_are_points_of_their_paths_and_come_back() {
         assert_eq!(write(&source(), &read, &[]), text, "what was read is written as it was");
     }
 }
+
+#[test]
+fn a_corner_of_a_ring_without_edges_is_named() {
+    use medial::domain::{Domain, Options};
+    use medial::engine::path_tracing;
+    let square = |low: f64, high: f64| {
+        [(low, low), (high, low), (high, high), (low, high)].map(|(x, y)| Point::new(x, y)).to_vec()
+    };
+    let rings = vec![square(0.0, 6.0), square(2.0, 4.0)];
+    let axis =
+        path_tracing(&Domain::from_polygons(&[rings], &Options::default()).unwrap()).unwrap();
+    let mut document: Value = serde_json::from_str(&write(&source(), &axis, &[])).unwrap();
+    let sites = document["sites"].as_array_mut().unwrap();
+    let corner = sites.iter_mut().find(|site| site["kind"] == "vertex").unwrap();
+    corner["ring"] = json!(7);
+    let axis = read_one(&document.to_string()).unwrap().axis;
+    let error = medial::ops::polygons_of(&axis).unwrap_err().to_string();
+    assert!(error.ends_with("is of a ring without edges") && error.contains("ring 7"), "{error}");
+}
