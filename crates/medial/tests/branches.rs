@@ -275,6 +275,22 @@ fn a_key_fits_its_lock_and_no_other() {
 }
 
 #[test]
+fn what_a_blade_sticks_out_of_stays_outside_of_a_deeper_notch() {
+    let deep = "POLYGON ((20 0, 32 0, 32 10, 27.1 10, 27.1 4, 24.9 4, 24.9 10, 20 10, 20 0))";
+    let tab = "POLYGON ((0 0, 10 0, 10 4, 6 4, 6 9, 4 9, 4 4, 0 4, 0 0))";
+    let ((peninsulas, _), (_, bays)) = (limbs_of(tab, 0.5), limbs_of(deep, 0.5));
+    let pairs = limb_pairs(&peninsulas, &bays);
+    let into = pairs.iter().find(|pair| peninsulas[pair.peninsula].tip.y > 8.0).unwrap();
+    // Last disks do not quite reach the boundary, here and there by as much.
+    assert!((into.gap - 1.0).abs() < 0.02 && (into.depth - 5.0).abs() < 0.15, "{into:?}");
+    // Turned by half, its shoulders at height 4 are at the mouth, at height 10.
+    assert!(
+        (into.turn.abs() - std::f64::consts::PI).abs() < 1e-9 && (into.shift.y - 14.0).abs() < 1e-9,
+        "{into:?}"
+    );
+}
+
+#[test]
 fn the_distance_of_boundaries_is_that_of_the_farthest_points() {
     let square = |low: f64, high: f64| {
         vec![

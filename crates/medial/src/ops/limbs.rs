@@ -10,7 +10,8 @@
 //! # Method
 //! The profile of a limb is its radius against the distance from its tip. Profiles are compared at equal
 //! distances; the pose that is told turns the way of the peninsula into that of the bay and brings the
-//! tips together, up to the gap that is needed.
+//! tips together, up to the gap that is needed. A peninsula goes in as far as it sticks out of the rest of its
+//! shape, which stays outside.
 //!
 //! # Departures
 //! The report leaves the search open. What is compared here is width, not bending: a pair is a proposal
@@ -43,6 +44,9 @@ pub struct Limb {
     pub length: f64,
     /// The distance from mouth to tip as a share of the length: 1 if it is straight.
     pub straightness: f64,
+    /// The length from the tip to the line between the points where the boundary is touched at the mouth: that of
+    /// what sticks out of the rest, whose disk begins before. In units of the input.
+    pub reach: f64,
     /// Distances from the tip along the axis, growing, and the radius there.
     profile: Vec<(f64, f64)>,
 }
@@ -101,8 +105,14 @@ impl Limb {
         (0..PLACES).map(|k| 2.0 * step * self.radius((f64::from(k) + 0.5) * step)).sum()
     }
 
-    /// The limb along curves from the mouth to the tip.
-    fn new(side: Side, curves: Vec<Curve>, tolerance: f64) -> Option<Self> {
+    /// The limb along curves from the mouth to the tip, and the points touched at the mouth if they tell where it
+    /// begins.
+    fn new(
+        side: Side,
+        curves: Vec<Curve>,
+        feet: Option<[Point; 2]>,
+        tolerance: f64,
+    ) -> Option<Self> {
         let (first, last) = (curves.first()?, curves.last()?);
         let mouth = first.from();
         let way = last.to() - last.control().unwrap_or(last.from());
@@ -110,13 +120,26 @@ impl Limb {
         let tip = last.to() + way * last.radius_to();
         let mut profile = vec![(last.radius_to(), last.radius_to())];
         let mut along = last.radius_to();
+        let is_before = |p: Point| {
+            feet.is_some_and(|[a, b]| {
+                let (side, of_tip) = (orient2d(a, b, p), orient2d(a, b, tip));
+                side > 0.0 && of_tip < 0.0 || side < 0.0 && of_tip > 0.0
+            })
+        };
+        // How far it is from the tip to where the line between the feet is crossed last.
+        let mut reach = None;
         for curve in curves.iter().rev() {
             let points = curve.reversed().polyline_in_space(tolerance);
             let chords: f64 = points.windows(2).map(|p| (p[1].0 - p[0].0).norm()).sum();
             // Chords fall short of the curve by a little.
             let stretch = if chords > 0.0 { curve.length() / chords } else { 1.0 };
             for pair in points.windows(2) {
-                along += stretch * (pair[1].0 - pair[0].0).norm();
+                let way = stretch * (pair[1].0 - pair[0].0).norm();
+                if let Some([a, b]) = feet.filter(|_| reach.is_none() && is_before(pair[1].0)) {
+                    let [here, there] = [pair[0].0, pair[1].0].map(|p| (b - a).cross(p - a));
+                    reach = Some(along + way * (here / (here - there)).clamp(0.0, 1.0));
+                }
+                along += way;
                 profile.push((along, pair[1].1));
             }
         }
@@ -129,6 +152,7 @@ impl Limb {
             direction: chord * (1.0 / far),
             length,
             straightness: (far / length).min(1.0),
+            reach: reach.unwrap_or(length),
             profile,
             curves,
         })
@@ -185,19 +209,27 @@ pub fn limbs(
     let mut limbs = Vec::new();
     for branch in branches(&pruned).iter() {
         let ends = [is_free(branch.from()), is_free(branch.to())];
-        let ways: Vec<Vec<Curve>> = match ends {
+        let feet = |at_end: bool| {
+            let banks = branch.boundary().map(|bank| bank.points);
+            let foot = |bank: &Vec<Point>| if at_end { bank.last() } else { bank.first() }.copied();
+            Some([foot(&banks[0])?, foot(&banks[1])?])
+        };
+        let ways: Vec<(Vec<Curve>, Option<[Point; 2]>)> = match ends {
             [true, true] => {
                 let curves: Vec<Curve> = branch.curves().collect();
                 let [first, last] = halves(&curves, 0.5 * branch.extent().length);
-                vec![reversed(first.into_iter()), last]
+                vec![(reversed(first.into_iter()), None), (last, None)]
             }
-            [true, false] => vec![reversed(branch.curves())],
-            [false, true] => vec![branch.curves().collect()],
+            [true, false] => vec![(reversed(branch.curves()), feet(true))],
+            [false, true] => vec![(branch.curves().collect(), feet(false))],
             [false, false] => continue,
         };
-        for way in ways {
-            let way = if axis.side == Side::Exterior { within(&hull, way) } else { way };
-            limbs.extend(Limb::new(axis.side, way, tolerance));
+        for (way, feet) in ways {
+            limbs.extend(match axis.side {
+                Side::Interior => Limb::new(axis.side, way, feet, tolerance),
+                // It begins at the hull, or where it leaves a hole.
+                Side::Exterior => Limb::new(axis.side, within(&hull, way), None, tolerance),
+            });
         }
     }
     limbs.sort_by(|a, b| b.length.total_cmp(&a.length));
@@ -212,7 +244,7 @@ pub fn limb_pairs(peninsulas: &[Limb], bays: &[Limb]) -> Vec<LimbPair> {
     for (peninsula, inner) in peninsulas.iter().enumerate() {
         for (bay, outer) in bays.iter().enumerate() {
             let Some(gap) = gap(inner, outer) else { continue };
-            let depth = inner.length.min(outer.length - gap);
+            let depth = inner.reach.min(outer.length - gap);
             let (from, to) = (inner.direction, outer.direction);
             let turn = from.cross(to).atan2(from.dot(to));
             let (sin, cos) = turn.sin_cos();
@@ -231,16 +263,18 @@ fn gap(inner: &Limb, outer: &Limb) -> Option<f64> {
     /// Rounding and flattening of profiles, as a share of the width.
     const SLACK: f64 = 1e-3;
     let fits = |gap: f64| {
-        let depth = inner.length.min(outer.length - gap);
+        let depth = inner.reach.min(outer.length - gap);
         (0..=PLACES).all(|k| {
             let t = depth * f64::from(k) / f64::from(PLACES);
             inner.radius(t) <= outer.radius(t + gap) * (1.0 + SLACK)
         })
     };
-    let most = outer.length - 0.5 * inner.length;
+    let most = outer.length - 0.5 * inner.reach;
+    // What is around the mouth of the peninsula stays outside.
+    let least = (outer.length - inner.reach).max(0.0);
     (0..=PLACES)
-        .map(|k| most * f64::from(k) / f64::from(PLACES))
-        .take_while(|_| most >= 0.0)
+        .map(|k| least + (most - least) * f64::from(k) / f64::from(PLACES))
+        .take_while(|_| most >= least)
         .find(|&g| fits(g))
 }
 
