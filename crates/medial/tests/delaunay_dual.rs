@@ -417,8 +417,14 @@ fn a_smoothed_or_retracted_border_has_fewer_ends_and_the_same_topology() {
         let mask = random_mask(seed);
         let dual = DelaunayDual::of_mask(&mask, &options).unwrap();
         ends(&dual, &mask);
-        ends(&DelaunayDual::of_smoothed_mask(&mask, 1.0, &options).unwrap(), &mask);
-        ends(&dual.retracted(1.0, &options).unwrap(), &mask);
+        for width in [1.0, 2.0, 10.0] {
+            ends(&DelaunayDual::of_smoothed_mask(&mask, width, &options).unwrap(), &mask);
+        }
+        // However far, it comes back before it meets itself.
+        for residual in [1.0, 10.0, 1e9] {
+            let dual = DelaunayDual::of_mask(&mask, &options).unwrap();
+            ends(&dual.retracted(residual, &options).unwrap(), &mask);
+        }
         // Ovals with a hole.
         let (a, b) = (20.0 + seed as f64 / 9.0, 30.0 - seed as f64 / 13.0);
         let is_inside = |x: u32, y: u32| {

@@ -236,8 +236,9 @@ fn describe(
     )?;
     let z = match schema.in_space() {
         (false, _) => 0,
-        (true, true) => 1,
-        (true, false) => 2,
+        // Of a mixture of geometries readers of OGR's take no more than that it may have heights.
+        (true, true) if type_of(schema) != "GEOMETRY" => 1,
+        (true, _) => 2,
     };
     database.execute(
         "INSERT INTO gpkg_geometry_columns VALUES (?, ?, ?, ?, ?, 0)",

@@ -52,7 +52,7 @@ pub enum EngineError {
     },
     /// The boundary is nearer to itself than rounded samples are to it.
     #[error(
-        "near ({}, {}) the boundary is nearer to itself than doubles can tell samples apart; use path_tracing",
+        "near ({}, {}) the boundary is nearer to itself than doubles can tell samples apart; use path_tracing, or a smaller spacing, or smooth less",
         place.x, place.y
     )]
     Crowded {

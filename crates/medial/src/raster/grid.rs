@@ -70,6 +70,12 @@ impl Grid {
         self.cell[0].abs().max(self.cell[1].abs())
     }
 
+    /// The shorter side of a cell.
+    #[must_use]
+    pub fn shorter_side(&self) -> f64 {
+        self.cell[0].abs().min(self.cell[1].abs())
+    }
+
     /// Whether a turn from columns to rows is one to the right in the plane.
     #[must_use]
     pub fn is_mirrored(&self) -> bool {

@@ -43,7 +43,7 @@ use super::sampled::{outline_record, outside_record};
 use super::watch::Watch;
 use super::{EngineError, Options};
 use crate::axis::{MedialAxis, Side};
-use crate::domain::{Complement, Domain, Site};
+use crate::domain::{self, Complement, Domain, Site};
 use crate::geom::{Blocked, Delaunay, Point, Rect};
 use crate::raster::{Cracks, Mask, default_cell};
 use axis::{Drawn, Label};
@@ -57,6 +57,9 @@ use std::collections::BTreeSet;
 /// The distance between samples of masks where nothing else is said, in sides of a cell: with it the crust of
 /// silhouettes has all their edges and, of others, little more than one in a thousand.
 const MASK_SPACING: f64 = 0.5;
+
+/// How often the way a border is smoothed or drawn back is halved before it stays where it is.
+const HALVINGS: i32 = 5;
 
 /// How dense samples have to be for the crust to be the boundary, as a share of the distance from the axis \[ABE98\].
 const DENSE: f64 = 0.252;
@@ -229,7 +232,7 @@ impl<'a> DelaunayDual<'a> {
     }
 
     /// The same for an outline that is smoothed by a Gaussian of that width along it, in sides of cells. No sample moves
-    /// by more than 0.35 of these, so components and holes stay.
+    /// by more than a quarter of the shorter side of these, so components and holes stay.
     ///
     /// # Errors
     /// Those of [`of_mask`](Self::of_mask).
@@ -245,28 +248,57 @@ impl<'a> DelaunayDual<'a> {
         let size = mask.grid().cell_size();
         let mut spacing = options.spacing.unwrap_or(MASK_SPACING * size);
         let mut samples = Samples::of_cracks(&mask.bits, &cracks, plane.factors(), spacing / size)?;
+        let given = samples.points.clone();
+        let mut moved = 0.0;
         if width > 0.0 {
             // Where cells are no squares, the plane of samples has the size of the cells.
-            let factor = size / plane.unit();
-            spacing += smooth::average(&mut samples, width, factor) * plane.unit();
+            let [longer, shorter] = [size, mask.grid().shorter_side()].map(|v| v / plane.unit());
+            moved = smooth::average(&mut samples, width * longer, shorter);
         }
         watch.check_now()?;
+        let smooth = samples.points.clone();
         let source = Source::Mask(mask, Box::new(cracks));
-        let graph = graph_of(&samples, &plane, &watch)?;
+        let mut graph = graph_of(&samples, &plane, &watch);
+        // Where it would come too near to itself it is smoothed less.
+        for halvings in 1..=HALVINGS {
+            if moved == 0.0 || !matches!(graph, Err(EngineError::Crowded { .. })) {
+                break;
+            }
+            let share = share_after(halvings);
+            samples.points = part_of_the_way(&given, &smooth, share);
+            moved *= if share > 0.0 { 0.5 } else { 0.0 };
+            graph = graph_of(&samples, &plane, &watch);
+        }
+        let graph = graph?;
+        spacing += moved * plane.unit();
         Self::of(source, None, samples, plane, graph, spacing, &watch)
     }
 
     /// The same with the border drawn back to where hairs begin \[TG00\]: what lies behind branches with a chord residual
     /// of no more than this, in units of the input, becomes arcs of the circles where these begin, or nearly.
     ///
-    /// The elements that govern the axis are those of the border as it was.
+    /// A border that would meet itself is drawn back less far. The elements that govern the axis are those of the border
+    /// as it was.
     ///
     /// # Errors
     /// [`EngineError::Crowded`] if the border would come to lie on itself, or the options say to stop.
     pub fn retracted(self, residual: f64, options: &Options<'_>) -> Result<Self, EngineError> {
         let left = self.left(DualPruning::Chord(residual));
         let Self { source, frame, mut samples, plane, triangles, dual, disks, spacing, .. } = self;
-        let moved = smooth::retract(&mut samples, &triangles, &dual, &disks, &left);
+        let given = samples.points.clone();
+        let mut moved = smooth::retract(&mut samples, &triangles, &dual, &disks, &left);
+        // Far back a border may meet itself, or come to nothing: then it goes less far, if at all.
+        let back = samples.points.clone();
+        for halvings in 1..=HALVINGS {
+            // Rings of polygons may touch as they are given, those around cells do not.
+            let may_touch = !matches!(source, Source::Mask(..));
+            if is_border(&grouped(&source, &plane, &samples), may_touch) {
+                break;
+            }
+            let share = share_after(halvings);
+            samples.points = part_of_the_way(&given, &back, share);
+            moved *= if share > 0.0 { 0.5 } else { 0.0 };
+        }
         let spacing = spacing + moved * plane.unit();
         let watch = Watch::new(options);
         let graph = graph_of(&samples, &plane, &watch)?;
@@ -293,37 +325,14 @@ impl<'a> DelaunayDual<'a> {
     /// The samples, ring by ring, in the plane of the input.
     #[must_use]
     pub fn samples(&self) -> Vec<Vec<Point>> {
-        let ring = |ring: &std::ops::Range<u32>| {
-            ring.clone().map(|k| self.plane.place(self.samples.points[k as usize])).collect()
-        };
-        self.samples.rings.iter().map(ring).collect()
+        placed(&self.plane, &self.samples)
     }
 
     /// The border as it was sampled, smoothed or drawn back: polygons of samples in the plane of the input, each of rings
     /// with the shape on their left, the outer one first; of the outside a polygon for each ring.
     #[must_use]
     pub fn border(&self) -> Vec<Vec<Vec<Point>>> {
-        let mut rings = self.samples();
-        if self.plane.is_mirrored() {
-            rings.iter_mut().for_each(|ring| ring[1..].reverse());
-        }
-        // The polygon of each ring, and whether the ring is a hole of it.
-        let of: Vec<(u32, bool)> = match &self.source {
-            Source::Domain(domain) => {
-                domain.walks().iter().map(|walk| (walk.component, walk.hole)).collect()
-            }
-            Source::Outside(_) => (0..rings.len() as u32).map(|ring| (ring, false)).collect(),
-            Source::Mask(_, cracks) => {
-                cracks.contours.iter().map(|ring| (ring.polygon, ring.ring > 0)).collect()
-            }
-        };
-        let n = of.iter().map(|&(polygon, _)| polygon as usize + 1).max().unwrap_or(0);
-        let mut polygons = vec![Vec::new(); n];
-        for (ring, (polygon, is_hole)) in rings.into_iter().zip(of) {
-            let polygon: &mut Vec<Vec<Point>> = &mut polygons[polygon as usize];
-            polygon.insert(if is_hole { polygon.len() } else { 0 }, ring);
-        }
-        polygons
+        grouped(&self.source, &self.plane, &self.samples)
     }
 
     /// The nodes of the dual graph.
@@ -484,6 +493,59 @@ fn triangulated(
 }
 
 /// The triangulation of samples in a plane.
+/// The samples, ring by ring, in the plane of the input.
+fn placed(plane: &Plane, samples: &Samples) -> Vec<Vec<Point>> {
+    let ring = |ring: &std::ops::Range<u32>| {
+        ring.clone().map(|k| plane.place(samples.points[k as usize])).collect()
+    };
+    samples.rings.iter().map(ring).collect()
+}
+
+/// The same as polygons; see [`DelaunayDual::border`].
+fn grouped(source: &Source<'_>, plane: &Plane, samples: &Samples) -> Vec<Vec<Vec<Point>>> {
+    let mut rings = placed(plane, samples);
+    if plane.is_mirrored() {
+        rings.iter_mut().for_each(|ring| ring[1..].reverse());
+    }
+    // The polygon of each ring, and whether the ring is a hole of it.
+    let of: Vec<(u32, bool)> = match source {
+        Source::Domain(domain) => {
+            domain.walks().iter().map(|walk| (walk.component, walk.hole)).collect()
+        }
+        Source::Outside(_) => (0..rings.len() as u32).map(|ring| (ring, false)).collect(),
+        Source::Mask(_, cracks) => {
+            cracks.contours.iter().map(|ring| (ring.polygon, ring.ring > 0)).collect()
+        }
+    };
+    let n = of.iter().map(|&(polygon, _)| polygon as usize + 1).max().unwrap_or(0);
+    let mut polygons = vec![Vec::new(); n];
+    for (ring, (polygon, is_hole)) in rings.into_iter().zip(of) {
+        let polygon: &mut Vec<Vec<Point>> = &mut polygons[polygon as usize];
+        polygon.insert(if is_hole { polygon.len() } else { 0 }, ring);
+    }
+    polygons
+}
+
+/// The share of a move that is left after it was halved so often; in the end nothing.
+fn share_after(halvings: i32) -> f64 {
+    if halvings < HALVINGS { 0.5_f64.powi(halvings) } else { 0.0 }
+}
+
+fn part_of_the_way(from: &[Point], to: &[Point], share: f64) -> Vec<Point> {
+    from.iter().zip(to).map(|(&from, &to)| from + (to - from) * share).collect()
+}
+
+/// Whether these are the polygons of a domain with as many rings.
+fn is_border(polygons: &[Vec<Vec<Point>>], may_touch: bool) -> bool {
+    let n_rings: usize = polygons.iter().map(Vec::len).sum();
+    let options = domain::Options { strict: !may_touch, ..domain::Options::default() };
+    let domain = Domain::from_polygons(polygons, &options);
+    domain.is_ok_and(|domain| {
+        let walks = domain.walks();
+        walks.len() == n_rings && domain.n_components() == polygons.len()
+    })
+}
+
 fn graph_of(
     samples: &Samples,
     plane: &Plane,

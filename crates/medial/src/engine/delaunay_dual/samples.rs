@@ -9,7 +9,7 @@ use crate::geom::{Delaunay, Point};
 use crate::raster::{Bits, Cracks, Grid};
 
 /// Samples up to which a boundary can be triangulated: each needs some 200 bytes.
-const MOST: f64 = 1e8;
+const MOST: f64 = 2e7;
 
 /// Points along closed rings, with the shape to the left.
 #[derive(Clone, Debug, Default)]

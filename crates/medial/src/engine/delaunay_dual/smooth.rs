@@ -5,9 +5,9 @@ use super::residuals::Left;
 use super::samples::Samples;
 use crate::geom::{Delaunay, Point};
 
-/// How far averages may move samples of a mask, in sides of a cell: parts of an outline, or two outlines, are half a
-/// diagonal apart at least, so that half of that keeps them apart.
-const MOST: f64 = 0.35;
+/// How far averages may move samples of a mask, in shorter sides of a cell: parts of an outline, or two outlines, are
+/// seven tenths of that apart at least, so that two tenths are left.
+const MOST: f64 = 0.25;
 
 /// By how much the arcs that samples are moved to are flatter than the circles that they stand for, so that no branch
 /// leads into them.
@@ -17,12 +17,12 @@ const FLATTER: f64 = 1.0 + 1.0 / 64.0;
 const MOST_OF_A_TURN: f64 = 2.5;
 
 /// Moves samples to averages of those around them along their rings, weighted by a Gaussian of that width; gives the
-/// largest move. The width is in sides of cells, which have that size; distances along rings are counted in steps of
-/// their mean length.
-pub(super) fn average(samples: &mut Samples, width: f64, cell: f64) -> f64 {
+/// largest move, which is in proportion to the shorter side of the cells. Distances along rings are counted in steps
+/// of their mean length.
+pub(super) fn average(samples: &mut Samples, width: f64, shorter: f64) -> f64 {
     /// Where the weights end, in widths.
     const REACH: f64 = 3.0;
-    let (width, most) = (width * cell, MOST * cell);
+    let most = MOST * shorter;
     let given = samples.points.clone();
     let mut largest = 0.0_f64;
     for ring in &samples.rings {
