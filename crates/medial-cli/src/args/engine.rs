@@ -27,7 +27,7 @@ pub struct ChosenEngine {
     #[arg(long, value_name = "D", value_parser = positive, allow_negative_numbers = true)]
     pub spacing: Option<f64>,
     /// The width of a Gaussian along the outline of an image by which delaunay_dual smooths it, in pixels; samples move
-    /// by 0.35 pixels at most
+    /// by a quarter of a pixel at most, borders between regions of pictures by 0.35
     #[arg(long, value_name = "SIGMA", value_parser = positive, allow_negative_numbers = true)]
     pub smooth_border: Option<f64>,
     /// Let delaunay_dual draw the border back to where hairs begin: what lies behind branches with a chord residual of
