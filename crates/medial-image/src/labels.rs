@@ -1,4 +1,5 @@
 use crate::field::{Field, squared};
+use medial::geom::DisjointSets;
 use medial::raster::{Grid, Mask};
 
 /// A number for each pixel: that of the region that it is in.
@@ -32,21 +33,6 @@ impl Region {
     }
 }
 
-/// The first number of a set.
-pub(crate) fn find(parent: &mut [u32], mut k: u32) -> u32 {
-    while parent[k as usize] != k {
-        parent[k as usize] = parent[parent[k as usize] as usize];
-        k = parent[k as usize];
-    }
-    k
-}
-
-/// Makes one set of two, with the smaller first number.
-pub(crate) fn join(parent: &mut [u32], a: u32, b: u32) {
-    let (a, b) = (find(parent, a), find(parent, b));
-    parent[a.max(b) as usize] = a.min(b);
-}
-
 impl Labels {
     /// The label of a pixel without data.
     pub const NONE: u32 = u32::MAX;
@@ -59,7 +45,7 @@ impl Labels {
         is_joined: impl Fn(usize, usize) -> bool,
     ) -> Self {
         let columns = grid.columns as usize;
-        let mut parent: Vec<u32> = Vec::new();
+        let mut sets = DisjointSets::default();
         let mut labels = vec![Self::NONE; class.len()];
         for k in 0..class.len() {
             if class[k] == Self::NONE {
@@ -71,18 +57,18 @@ impl Labels {
             labels[k] = match (left, above) {
                 (Some(left), Some(above)) => {
                     if left != above {
-                        join(&mut parent, left, above);
+                        sets.join(left, above);
                     }
                     left
                 }
                 (Some(one), None) | (None, Some(one)) => one,
                 (None, None) => {
-                    parent.push(parent.len() as u32);
-                    parent.len() as u32 - 1
+                    sets.push();
+                    sets.len() as u32 - 1
                 }
             };
         }
-        Self { grid, labels, n_regions: 0 }.numbered(|label| find(&mut parent, label))
+        Self { grid, labels, n_regions: 0 }.numbered(|label| sets.first(label))
     }
 
     /// The same regions, those joined to which something gives the same number, numbered anew.

@@ -1,7 +1,8 @@
 //! Regions that are too small, given to their neighbours.
 
 use crate::field::{Field, squared};
-use crate::labels::{Labels, find};
+use crate::labels::Labels;
+use medial::geom::DisjointSets;
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
@@ -15,17 +16,17 @@ pub(crate) fn merge_small(labels: Labels, field: &Field, least: u64) -> Labels {
     let mut cells: Vec<u64> = regions.iter().map(|region| region.cells).collect();
     let mut means: Vec<[f32; 3]> = regions.into_iter().map(|region| region.mean).collect();
     let mut around = neighbours(&labels);
-    let mut parent: Vec<u32> = (0..labels.len()).collect();
+    let mut sets = DisjointSets::new(labels.len() as usize);
     let small = (0..).zip(&cells).filter(|&(_, &n)| n < least);
     let mut waiting: BinaryHeap<Reverse<(u64, u32)>> =
         small.map(|(k, &n)| Reverse((n, k))).collect();
     while let Some(Reverse((n, region))) = waiting.pop() {
-        if parent[region as usize] != region || cells[region as usize] != n {
+        if sets.first(region) != region || cells[region as usize] != n {
             // It grew meanwhile.
             continue;
         }
         let mut beside = std::mem::take(&mut around[region as usize]);
-        beside.iter_mut().for_each(|other| *other = find(&mut parent, *other));
+        beside.iter_mut().for_each(|other| *other = sets.first(*other));
         beside.sort_unstable();
         beside.dedup();
         beside.retain(|&other| other != region);
@@ -45,7 +46,7 @@ pub(crate) fn merge_small(labels: Labels, field: &Field, least: u64) -> Labels {
             (a + (b - a) * share) as f32
         });
         cells[root as usize] = total;
-        parent[gone as usize] = root;
+        sets.join(root, gone);
         // Those of the other one stay where they are if it goes on.
         let mut more = std::mem::take(&mut around[other as usize]);
         if more.len() < beside.len() {
@@ -57,7 +58,7 @@ pub(crate) fn merge_small(labels: Labels, field: &Field, least: u64) -> Labels {
             waiting.push(Reverse((total, root)));
         }
     }
-    labels.numbered(|label| find(&mut parent, label))
+    labels.numbered(|label| sets.first(label))
 }
 
 /// The regions that share sides of pixels with each.

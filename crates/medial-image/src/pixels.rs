@@ -1,7 +1,6 @@
 //! Pixels by the number that each has, and their outlines in the plane of a grid.
 
-use crate::labels::{find, join};
-use medial::geom::Point;
+use medial::geom::{DisjointSets, Point};
 use medial::raster::{Grid, Mask, outline};
 
 /// Polygons: each a list of rings, the outer one first.
@@ -99,25 +98,25 @@ pub(crate) fn polygons(pixels: &[u64], grid: &Grid) -> Polygons {
 
 /// The parts of pixels, given in order, that hang together by sides, each in order.
 fn parts(pixels: &[u64], columns: u64) -> Vec<Vec<u64>> {
-    let mut parent: Vec<u32> = (0..pixels.len() as u32).collect();
+    let mut sets = DisjointSets::new(pixels.len());
     // The first pixel that is not before the one above.
     let mut above = 0;
     for (k, &pixel) in pixels.iter().enumerate() {
         if k > 0 && pixels[k - 1] + 1 == pixel && !pixel.is_multiple_of(columns) {
-            join(&mut parent, k as u32 - 1, k as u32);
+            sets.join(k as u32 - 1, k as u32);
         }
         while pixels[above] + columns < pixel {
             above += 1;
         }
         if pixels[above] + columns == pixel {
-            join(&mut parent, above as u32, k as u32);
+            sets.join(above as u32, k as u32);
         }
     }
     let mut parts: Vec<Vec<u64>> = Vec::new();
     let mut part_of = vec![0; pixels.len()];
     for (k, &pixel) in pixels.iter().enumerate() {
         // The first one of a part comes before the others.
-        let first = find(&mut parent, k as u32) as usize;
+        let first = sets.first(k as u32) as usize;
         if first == k {
             part_of[k] = parts.len();
             parts.push(Vec::new());

@@ -283,9 +283,8 @@ pub fn union_of_disks(disks: &[Disk], tolerance: f64) -> Vec<Vec<Vec<Point>>> {
         };
         (0..n).map(point).collect::<Vec<[f64; 2]>>()
     };
-    let disks = disks.iter().filter(|disk| disk.radius > 0.0);
-    let mut parts: Vec<Part> = disks.map(|disk| (disk.centre, flattened(disk))).collect();
-    without_slivers(united(&mut parts), 0.0)
+    let mut disks: Vec<Disk> = disks.iter().filter(|disk| disk.radius > 0.0).copied().collect();
+    without_slivers(united(&mut disks, &|disk| disk.centre, &flattened), 0.0)
 }
 
 /// The union of all disks of an axis along whose paths centre and radius are linear, as those of sampled axes
@@ -300,17 +299,17 @@ pub fn union_of_linked_disks(axis: &MedialAxis, tolerance: f64) -> Vec<Vec<Vec<P
         disk(centre, radius)
     };
     let lone = (0..).zip(axis.degrees()).filter(|&(_, degree)| degree == 0);
-    let lone = lone.map(|(keypoint, _)| hull(&[disk_of(keypoint); 2], tolerance));
-    let linked = axis.paths().all_ends().map(|ends| hull(&ends.map(disk_of), tolerance));
-    let mut parts: Vec<Part> = lone.chain(linked).flatten().collect();
-    without_slivers(united(&mut parts), 0.0)
+    let lone = lone.map(|(keypoint, _)| [keypoint; 2]);
+    let pairs = lone.chain(axis.paths().all_ends()).map(|ends| ends.map(disk_of));
+    let mut pairs: Vec<[Disk; 2]> =
+        pairs.filter(|pair| pair.iter().any(|disk| disk.radius > 0.0)).collect();
+    let middle = |[from, to]: &[Disk; 2]| (from.centre + to.centre) * 0.5;
+    without_slivers(united(&mut pairs, &middle, &|pair| hull(pair, tolerance)), 0.0)
 }
 
-/// The convex hull of two disks, or the one that holds the other, as a polygon inside of it; `None` of points.
+/// The convex hull of two disks, or the one that holds the other, as a polygon inside of it.
 #[cfg(feature = "union")]
-fn hull(ends: &[Disk; 2], tolerance: f64) -> Option<Part> {
-    let [from, to] = ends;
-    let middle = (from.centre + to.centre) * 0.5;
+fn hull([from, to]: &[Disk; 2], tolerance: f64) -> Contour {
     let larger = if from.radius > to.radius { from } else { to };
     let mut contour: Contour = Vec::new();
     let mut arc = |disk: &Disk, start: Point, sweep: f64| {
@@ -332,7 +331,7 @@ fn hull(ends: &[Disk; 2], tolerance: f64) -> Option<Part> {
         }
         _ => arc(larger, Point::new(1.0, 0.0), std::f64::consts::TAU),
     }
-    (larger.radius > 0.0).then_some((middle, contour))
+    contour
 }
 
 /// Polygons without crossings that hold what these rings wind around, but for rings that are smaller than a
@@ -358,10 +357,6 @@ fn simplified(mut contours: Vec<Contour>, rule: FillRule) -> Vec<Vec<Contour>> {
 #[cfg(feature = "union")]
 type Contour = Vec<[f64; 2]>;
 
-/// What is united with others, and where it lies.
-#[cfg(feature = "union")]
-type Part = (Point, Contour);
-
 /// The rings of shapes, but for those that rounding made: their area is nothing beside that of the box of
 /// all shapes, or less than that given.
 #[cfg(feature = "union")]
@@ -381,21 +376,27 @@ fn without_slivers(shapes: Vec<Vec<Contour>>, least: f64) -> Vec<Vec<Vec<Point>>
     polygons
 }
 
-/// The union of parts, by halves that lie apart: what is inside of a half is gone before the halves meet.
+/// The union of parts, by halves that lie apart: what is inside of a half is gone before the halves meet. Given are
+/// where a part lies, and its contour, which is made only then.
 #[cfg(feature = "union")]
-fn united(parts: &mut [Part]) -> Vec<Vec<Contour>> {
+fn united<T>(
+    parts: &mut [T],
+    place: &impl Fn(&T) -> Point,
+    contour: &impl Fn(&T) -> Contour,
+) -> Vec<Vec<Contour>> {
     /// Parts that are put together at once.
     const FEW: usize = 8;
     let contours: Vec<Contour> = if parts.len() <= FEW {
-        parts.iter_mut().map(|(_, contour)| std::mem::take(contour)).collect()
+        parts.iter().map(contour).collect()
     } else {
-        let bounds = parts.iter().fold(Rect::EMPTY, |all, (centre, _)| all.with(*centre));
+        let bounds = parts.iter().fold(Rect::EMPTY, |all, part| all.with(place(part)));
         let size = bounds.max - bounds.min;
-        let along = |(centre, _): &Part| if size.x > size.y { centre.x } else { centre.y };
+        let along = |part: &T| if size.x > size.y { place(part).x } else { place(part).y };
         let middle = parts.len() / 2;
         parts.select_nth_unstable_by(middle, |a, b| along(a).total_cmp(&along(b)));
         let (one, other) = parts.split_at_mut(middle);
-        [united(one), united(other)].into_iter().flatten().flatten().collect()
+        let halves = [one, other].map(|half| united(half, place, contour));
+        halves.into_iter().flatten().flatten().collect()
     };
     simplified(contours, FillRule::NonZero)
 }

@@ -248,29 +248,19 @@ impl<'a> DelaunayDual<'a> {
         let size = mask.grid().cell_size();
         let mut spacing = options.spacing.unwrap_or(MASK_SPACING * size);
         let mut samples = Samples::of_cracks(&mask.bits, &cracks, plane.factors(), spacing / size)?;
-        let given = samples.points.clone();
-        let mut moved = 0.0;
-        if width > 0.0 {
-            // Where cells are no squares, the plane of samples has the size of the cells.
-            let [longer, shorter] = [size, mask.grid().shorter_side()].map(|v| v / plane.unit());
-            moved = smooth::average(&mut samples, width * longer, shorter);
-        }
-        watch.check_now()?;
-        let smooth = samples.points.clone();
         let source = Source::Mask(mask, Box::new(cracks));
-        let mut graph = graph_of(&samples, &plane, &watch);
-        // Where it would come too near to itself it is smoothed less.
-        for halvings in 1..=HALVINGS {
-            if moved == 0.0 || !matches!(graph, Err(EngineError::Crowded { .. })) {
-                break;
-            }
-            let share = share_after(halvings);
-            samples.points = part_of_the_way(&given, &smooth, share);
-            moved *= if share > 0.0 { 0.5 } else { 0.0 };
-            graph = graph_of(&samples, &plane, &watch);
+        if width <= 0.0 {
+            let graph = graph_of(&samples, &plane, &watch)?;
+            return Self::of(source, None, samples, plane, graph, spacing, &watch);
         }
-        let graph = graph?;
-        spacing += moved * plane.unit();
+        let given = samples.points.clone();
+        // Where cells are no squares, the plane of samples has the size of the cells.
+        let [longer, shorter] = [size, mask.grid().shorter_side()].map(|v| v / plane.unit());
+        let moved = smooth::average(&mut samples, width * longer, shorter);
+        watch.check_now()?;
+        let (graph, share) =
+            as_far_as(&mut samples, &given, |samples, _| graph_of(samples, &plane, &watch))?;
+        spacing += share * moved * plane.unit();
         Self::of(source, None, samples, plane, graph, spacing, &watch)
     }
 
@@ -286,22 +276,18 @@ impl<'a> DelaunayDual<'a> {
         let left = self.left(DualPruning::Chord(residual));
         let Self { source, frame, mut samples, plane, triangles, dual, disks, spacing, .. } = self;
         let given = samples.points.clone();
-        let mut moved = smooth::retract(&mut samples, &triangles, &dual, &disks, &left);
-        // Far back a border may meet itself, or come to nothing: then it goes less far, if at all.
-        let back = samples.points.clone();
-        for halvings in 1..=HALVINGS {
-            // Rings of polygons may touch as they are given, those around cells do not.
-            let may_touch = !matches!(source, Source::Mask(..));
-            if is_border(&grouped(&source, &plane, &samples), may_touch) {
-                break;
-            }
-            let share = share_after(halvings);
-            samples.points = part_of_the_way(&given, &back, share);
-            moved *= if share > 0.0 { 0.5 } else { 0.0 };
-        }
-        let spacing = spacing + moved * plane.unit();
+        let moved = smooth::retract(&mut samples, &triangles, &dual, &disks, &left);
         let watch = Watch::new(options);
-        let graph = graph_of(&samples, &plane, &watch)?;
+        // Rings of polygons may touch as they are given, those around cells do not.
+        let may_touch = !matches!(source, Source::Mask(..));
+        let (graph, share) = as_far_as(&mut samples, &given, |samples, is_moved| {
+            let is_border = || is_border(&grouped(&source, &plane, samples), may_touch);
+            if is_moved && !is_border() {
+                return Err(crowded(samples, &plane, 0));
+            }
+            graph_of(samples, &plane, &watch)
+        })?;
+        let spacing = spacing + share * moved * plane.unit();
         Self::of(source, frame, samples, plane, graph, spacing, &watch)
     }
 
@@ -492,7 +478,6 @@ fn triangulated(
     })
 }
 
-/// The triangulation of samples in a plane.
 /// The samples, ring by ring, in the plane of the input.
 fn placed(plane: &Plane, samples: &Samples) -> Vec<Vec<Point>> {
     let ring = |ring: &std::ops::Range<u32>| {
@@ -526,17 +511,39 @@ fn grouped(source: &Source<'_>, plane: &Plane, samples: &Samples) -> Vec<Vec<Vec
     polygons
 }
 
-/// The share of a move that is left after it was halved so often; in the end nothing.
-fn share_after(halvings: i32) -> f64 {
-    if halvings < HALVINGS { 0.5_f64.powi(halvings) } else { 0.0 }
+/// What is made of samples that were moved, as far as their boundary is not crowded: the way there is halved as often
+/// as needed, and in the end they stay where they were. Gives the share of the way, too.
+fn as_far_as<T>(
+    samples: &mut Samples,
+    given: &[Point],
+    mut made: impl FnMut(&Samples, bool) -> Result<T, EngineError>,
+) -> Result<(T, f64), EngineError> {
+    let goal = samples.points.clone();
+    for halvings in 0..HALVINGS {
+        let share = 0.5_f64.powi(halvings);
+        let between = |(&from, &to): (&Point, &Point)| from + (to - from) * share;
+        if halvings > 0 {
+            samples.points = given.iter().zip(&goal).map(between).collect();
+        }
+        match made(samples, true) {
+            Err(EngineError::Crowded { .. }) => {}
+            made => return made.map(|made| (made, share)),
+        }
+    }
+    samples.points = given.to_vec();
+    made(samples, false).map(|made| (made, 0.0))
 }
 
-fn part_of_the_way(from: &[Point], to: &[Point], share: f64) -> Vec<Point> {
-    from.iter().zip(to).map(|(&from, &to)| from + (to - from) * share).collect()
+/// The boundary is too near to itself at a sample.
+fn crowded(samples: &Samples, plane: &Plane, sample: u32) -> EngineError {
+    EngineError::Crowded { place: plane.place(samples.points[sample as usize]) }
 }
 
 /// Whether these are the polygons of a domain with as many rings.
 fn is_border(polygons: &[Vec<Vec<Point>>], may_touch: bool) -> bool {
+    if polygons.is_empty() {
+        return true;
+    }
     let n_rings: usize = polygons.iter().map(Vec::len).sum();
     let options = domain::Options { strict: !may_touch, ..domain::Options::default() };
     let domain = Domain::from_polygons(polygons, &options);
@@ -546,6 +553,7 @@ fn is_border(polygons: &[Vec<Vec<Point>>], may_touch: bool) -> bool {
     })
 }
 
+/// The triangulation of samples in a plane.
 fn graph_of(
     samples: &Samples,
     plane: &Plane,
@@ -554,10 +562,7 @@ fn graph_of(
     if samples.len() == 0 {
         return Ok((Delaunay::default(), 0));
     }
-    triangulated(samples, watch)?.map_err(|crowded| {
-        let place = plane.place(samples.points[crowded[0] as usize]);
-        EngineError::Crowded { place }
-    })
+    triangulated(samples, watch)?.map_err(|at| crowded(samples, plane, at[0]))
 }
 
 /// The sampled medial axis of a domain, complete; see [`DelaunayDual`].

@@ -301,9 +301,8 @@ fn ranked<'a>(
     let mut lines = Vec::new();
     while lines.len() < count {
         let order = |&a: &usize, &b: &usize| {
-            let ([a, b], numbers) = ([&left[a], &left[b]], [left[b].graph, left[a].graph]);
-            let by_graph = numbers[0].cmp(&numbers[1]);
-            let by_value = a.way.value.total_cmp(&b.way.value);
+            let (a, b) = (&left[a], &left[b]);
+            let (by_graph, by_value) = (b.graph.cmp(&a.graph), a.way.value.total_cmp(&b.way.value));
             if first_comes_first { by_graph.then(by_value) } else { by_value }
         };
         let Some(first) = (0..left.len()).max_by(order) else { break };

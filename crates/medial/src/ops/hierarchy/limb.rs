@@ -206,10 +206,6 @@ impl Limb<'_> {
         let at = |u: f64| low + (high - low) * u;
         // No more than the threshold is lost, unless that is reached at the very end.
         let last_below = |[before, after]: [f64; 2]| at(if after == 1.0 { after } else { before });
-        if measure == Measure::Excess {
-            // The usual one, which is asked for at every leaf.
-            return last_below(crossing(|u| self.excess(at(u)) - threshold));
-        }
         let missing = |u: f64| self.value(measure, at(u)) - threshold;
         // What swallows a disk may be another one a little farther on.
         if measure == Measure::Scale {
