@@ -7,10 +7,10 @@ use std::f64::consts::{PI, SQRT_2};
 use medial::axis::{MedialAxis, Side};
 use medial::domain::{self, Domain};
 use medial::engine::{Options, path_tracing};
-use medial::geom::{Point, orient2d};
+use medial::geom::{Point, orient2d, signed_area};
 use medial::ops::{
     Hierarchy, Measure, Outline, OutlineError, OutlinePiece, ReconstructError, boundary_distance,
-    polygons_of, signed_area, smoothed, tangent_polygons,
+    polygons_of, smoothed, tangent_polygons,
 };
 use support::random::{self, Family, Ground, Random};
 use support::shapes;

@@ -12,10 +12,10 @@ use crate::report::Entry;
 use crate::timings::timed;
 use medial::axis::{Accuracy, Engine, MedialAxis, Side};
 use medial::engine::{EngineError, interior};
-use medial::geom::Point;
+use medial::geom::{Point, signed_area};
 use medial::ops::{
-    Compressed, CompressedMask, Outline, boundary_distance, disks, polygons_of, signed_area,
-    tangent_polygons, union_of_disks, union_of_linked_disks, without_crossings,
+    Compressed, CompressedMask, Outline, boundary_distance, disks, polygons_of, tangent_polygons,
+    union_of_disks, union_of_linked_disks, without_crossings,
 };
 use medial::raster::outline;
 use medial_io::axis_document::AxisDocument;

@@ -43,6 +43,13 @@ impl Cracks<'_> {
         self.ways(corner).iter().filter(|&&way| way).count() > 2
     }
 
+    /// Whether two pixels of one object touch at a corner, and no sides join them there.
+    pub fn is_pinched(&self, corner: Corner) -> bool {
+        let [a, b, c, d] = self.around(corner);
+        let is_apart = a != b && b != c && c != d && d != a;
+        is_apart && ((a == c && a != Labels::NONE) || (b == d && b != Labels::NONE))
+    }
+
     pub fn is_turn(&self, corner: Corner) -> bool {
         let ways = self.ways(corner);
         ways.iter().filter(|&&way| way).count() == 2 && ways[0] != ways[2]

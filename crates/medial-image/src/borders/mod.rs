@@ -2,7 +2,8 @@
 //!
 //! # Contract
 //! What is left of the borders divides the plane as they did: the same objects with the same neighbours, components
-//! and holes, and no two borders meet where they did not. Corners of pixels where three or four borders meet stay, and so
+//! and holes, and no two borders meet where they did not; parts of an object that meet at a corner have less than half a
+//! turn there. Corners of pixels where three or four borders meet stay, and so
 //! do the corners of the image. Every point of the borders before is within the tolerance of those after, and the other
 //! way round; of smoothed borders every corner that does not stay is cut off before that, and no point moves by more
 //! than 0.35 pixels.
@@ -55,6 +56,7 @@ impl Objects {
         }
         let arcs = self.arcs(&cracks, borders.corners(rows));
         let mut simplifier = Simplifier {
+            cracks: &cracks,
             borders,
             straight: arcs.iter().filter(|arc| arc.corners.len() == 2).map(Arc::ends).collect(),
             cell: cell.map(f64::abs),

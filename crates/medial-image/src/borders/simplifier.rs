@@ -1,12 +1,13 @@
 //! Which corners may leave a border, and in which order.
 
-use super::arcs::Arc;
+use super::arcs::{Arc, Cracks};
 use super::{Borders, Corner};
 use std::cmp::Reverse;
 use std::collections::{BTreeSet, BinaryHeap};
 
 /// Takes corners out of borders.
-pub(super) struct Simplifier {
+pub(super) struct Simplifier<'a> {
+    pub cracks: &'a Cracks<'a>,
     pub borders: Borders,
     /// The ends of borders that are straight.
     pub straight: BTreeSet<[Corner; 2]>,
@@ -20,7 +21,7 @@ pub(super) struct Simplifier {
 /// corners there are on it; then which one, and between which neighbours.
 type Candidate = Reverse<(u64, usize, usize, usize, usize)>;
 
-impl Simplifier {
+impl Simplifier<'_> {
     pub fn simplify(&mut self, arc: &Arc) {
         let n = arc.corners.len();
         // The end of a loop is its start.
@@ -50,7 +51,11 @@ impl Simplifier {
                     || (a > 0 && corners[before[a]] == corners[b])
                     || (a == 0 && b + 1 == n && self.straight.contains(&arc.ends()))
             };
-            if is_taken || !self.is_empty([corners[a], corners[k], corners[b]]) {
+            // An object goes on through a corner only if it has less than half a turn there on both sides.
+            let turns_away = !arc.is_loop
+                && ((a == 0 && self.turns_away(corners[0], corners[1], corners[b]))
+                    || (b + 1 == n && self.turns_away(corners[b], corners[b - 1], corners[a])));
+            if is_taken || turns_away || !self.is_empty([corners[a], corners[k], corners[b]]) {
                 continue;
             }
             self.borders.set(corners[k], false);
@@ -79,6 +84,20 @@ impl Simplifier {
             }
         }
         Some(Reverse((farthest.to_bits(), n_between, k, a, b)))
+    }
+
+    /// Whether a border out of a corner at which pixels of one object touch would turn by an eighth of a turn or more one
+    /// way, or by more the other way, from where it led at first. If none of the four does, no two of them are half a turn
+    /// apart.
+    fn turns_away(&self, corner: Corner, at_first: Corner, to: Corner) -> bool {
+        if !self.cracks.is_pinched(corner) {
+            return false;
+        }
+        let way = |to: Corner| [0, 1].map(|axis| i64::from(to[axis]) - i64::from(corner[axis]));
+        let (first, now) = (way(at_first), way(to));
+        let along = first[0] * now[0] + first[1] * now[1];
+        let across = first[0] * now[1] - first[1] * now[0];
+        !(-along <= across && across < along)
     }
 
     fn place(&self, corner: Corner) -> [f64; 2] {

@@ -31,6 +31,7 @@ mod rings;
 mod sites;
 mod status;
 mod sweep;
+mod touches;
 mod tree;
 mod unit;
 mod walks;

@@ -12,6 +12,7 @@ mod orient;
 mod point;
 pub mod predicates;
 mod rims;
+mod ring;
 
 pub use bounds_tree::{BoundsTree, Rect, Visitor};
 pub use capsule_tree::{CapsuleTree, Hidden, LEAF, Look, Scope};
@@ -27,3 +28,5 @@ pub use orient::{cross_directions, dot_directions, in_circle, orient2d};
 pub use point::Point;
 pub(crate) use point::order_key;
 pub use rims::{Pinned, Rim};
+pub(crate) use ring::parted;
+pub use ring::signed_area;

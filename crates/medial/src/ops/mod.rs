@@ -53,7 +53,7 @@ pub use measure::Measure;
 pub use offset::{OffsetError, offset_margin, offsets};
 pub use outline::{Contour, Outline, OutlineError, OutlinePiece, OutlinePolygon, Sense};
 pub use profile::{Station, narrowest, profile};
-pub use reconstruct::{Disk, ReconstructError, disks, polygons_of, signed_area, tangent_polygons};
+pub use reconstruct::{Disk, ReconstructError, disks, polygons_of, tangent_polygons};
 #[cfg(feature = "union")]
 pub use reconstruct::{union_of_disks, union_of_linked_disks, without_crossings};
 pub use rest::{Origin, Pruned};

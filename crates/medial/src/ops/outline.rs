@@ -13,12 +13,10 @@
 //! # Departures
 //! Volkmann and St. Clair [VS87, II.C] approximate the outline by tangents of disks; see `reconstruct.rs`.
 
-use std::collections::HashMap;
 use std::f64::consts::TAU;
 
-use super::reconstruct::signed_area;
 use crate::axis::{KeypointKind, MedialAxis, Path, Side, SiteKind, SiteShape};
-use crate::geom::{Point, orient2d};
+use crate::geom::{Point, orient2d, parted, signed_area};
 
 /// The outline of what an axis stands for.
 #[derive(Clone, Debug, PartialEq)]
@@ -278,29 +276,6 @@ impl Contour {
     pub(super) fn reversed(&self) -> Self {
         Self(self.0.iter().rev().map(OutlinePiece::reversed).collect())
     }
-}
-
-/// A ring, parted where it comes back to a point: each part meets no point twice.
-fn parted(ring: Vec<Point>) -> Vec<Vec<Point>> {
-    let bits = |p: Point| ((p.x + 0.0).to_bits(), (p.y + 0.0).to_bits());
-    let mut parts = Vec::new();
-    let mut open: Vec<Point> = Vec::new();
-    let mut places = HashMap::new();
-    for p in ring {
-        if let Some(&place) = places.get(&bits(p)) {
-            let part = open.split_off(place);
-            for &q in &part {
-                places.remove(&bits(q));
-            }
-            parts.push(part);
-        }
-        places.insert(bits(p), open.len());
-        open.push(p);
-    }
-    parts.push(open);
-    // Two points, there and back, bound nothing.
-    parts.retain(|part| part.len() > 2);
-    parts
 }
 
 /// The angle of an arc, counterclockwise.

@@ -31,7 +31,7 @@ use crate::axis::{Accuracy, Curve, MedialAxis, Side, Site, SiteKind};
 use crate::check::Name;
 #[cfg(feature = "union")]
 use crate::geom::Rect;
-use crate::geom::{DisjointSets, Point, orient2d};
+use crate::geom::{DisjointSets, Point, orient2d, signed_area};
 
 /// Why an axis does not give back its polygons.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -258,14 +258,6 @@ pub fn tangent_polygons(
     let components =
         turns.components(|around| tangent_ring(axis, &turns, &around.collect::<Vec<u32>>(), step));
     Ok(components.into_iter().map(polygon).collect())
-}
-
-/// The area within a ring, negative if it runs clockwise; rounded.
-#[must_use]
-pub fn signed_area(ring: &[Point]) -> f64 {
-    let Some(&origin) = ring.first() else { return 0.0 };
-    let twice: f64 = ring.windows(2).map(|p| (p[0] - origin).cross(p[1] - origin)).sum();
-    0.5 * twice
 }
 
 /// The union of disks as polygons inside of it, no farther away than a tolerance: for each of its parts

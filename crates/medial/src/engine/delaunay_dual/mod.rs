@@ -44,7 +44,7 @@ use super::watch::Watch;
 use super::{EngineError, Options};
 use crate::axis::{MedialAxis, Side};
 use crate::domain::{self, Complement, Domain, Site};
-use crate::geom::{Blocked, Delaunay, Point, Rect};
+use crate::geom::{Blocked, Delaunay, Point, Rect, parted, signed_area};
 use crate::raster::{Cracks, Mask, default_cell};
 use axis::{Drawn, Label};
 pub use crust::{Border, border, crust, two_step_crust};
@@ -192,13 +192,15 @@ impl<'a> DelaunayDual<'a> {
     ) -> Result<Self, EngineError> {
         // Edges that are taken whole, as points between their ends would come to lie on others by rounding.
         let mut whole = BTreeSet::new();
+        let mut touched = None;
         loop {
             let (domain, walks) = match &source {
                 Source::Domain(domain) => (*domain, domain.walks()),
                 Source::Outside(outside) => (outside.domain(), &outside.domain().walks()[1..]),
                 Source::Mask(..) => break Err(EngineError::Spacing { spacing }),
             };
-            let samples = Samples::of_walks(domain, walks, spacing, &whole)?;
+            let touched: &Vec<_> = touched.get_or_insert_with(|| domain.touched_edges());
+            let samples = Samples::of_walks(domain, walks, spacing, touched, &whole)?;
             watch.check_now()?;
             let crowded = match triangulated(&samples, watch)? {
                 Ok(graph) => match samples.merged(domain, &graph.0) {
@@ -281,7 +283,10 @@ impl<'a> DelaunayDual<'a> {
         // Rings of polygons may touch as they are given, those around cells do not.
         let may_touch = !matches!(source, Source::Mask(..));
         let (graph, share) = as_far_as(&mut samples, &given, |samples, is_moved| {
-            let is_border = || is_border(&grouped(&source, &plane, samples), may_touch);
+            let is_border = || {
+                let polygons = grouped(&source, &plane, samples);
+                is_border(&polygons, samples.rings.len(), may_touch)
+            };
             if is_moved && !is_border() {
                 return Err(crowded(samples, &plane, 0));
             }
@@ -506,7 +511,13 @@ fn grouped(source: &Source<'_>, plane: &Plane, samples: &Samples) -> Vec<Vec<Vec
     let mut polygons = vec![Vec::new(); n];
     for (ring, (polygon, is_hole)) in rings.into_iter().zip(of) {
         let polygon: &mut Vec<Vec<Point>> = &mut polygons[polygon as usize];
-        polygon.insert(if is_hole { polygon.len() } else { 0 }, ring);
+        // A walk along rings that touch is each of these, all but one of them holes.
+        let parts = parted(ring);
+        let is_one = parts.len() == 1;
+        for part in parts {
+            let is_outer = !is_hole && (is_one || signed_area(&part) > 0.0);
+            polygon.insert(if is_outer { 0 } else { polygon.len() }, part);
+        }
     }
     polygons
 }
@@ -539,17 +550,16 @@ fn crowded(samples: &Samples, plane: &Plane, sample: u32) -> EngineError {
     EngineError::Crowded { place: plane.place(samples.points[sample as usize]) }
 }
 
-/// Whether these are the polygons of a domain with as many rings.
-fn is_border(polygons: &[Vec<Vec<Point>>], may_touch: bool) -> bool {
+/// Whether these are the polygons of a domain with so many walks, each with one outer ring.
+fn is_border(polygons: &[Vec<Vec<Point>>], n_walks: usize, may_touch: bool) -> bool {
     if polygons.is_empty() {
         return true;
     }
-    let n_rings: usize = polygons.iter().map(Vec::len).sum();
     let options = domain::Options { strict: !may_touch, ..domain::Options::default() };
     let domain = Domain::from_polygons(polygons, &options);
     domain.is_ok_and(|domain| {
         let walks = domain.walks();
-        walks.len() == n_rings && domain.n_components() == polygons.len()
+        walks.len() == n_walks && domain.n_components() == polygons.len()
     })
 }
 

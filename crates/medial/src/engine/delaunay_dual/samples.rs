@@ -18,25 +18,36 @@ pub(super) struct Samples {
     /// The element that a sample lies on, twice; at a convex corner that before and that after it.
     pub elements: Vec<[u32; 2]>,
     pub rings: Vec<Range<u32>>,
+    /// Those within an edge where a corner of another polygon is.
+    touched: Vec<u32>,
 }
 
 impl Samples {
-    /// Samples of walks, at most so far from one another: all corners, and points between them but on some edges.
+    /// Samples of walks, at most so far from one another: all corners, corners of other polygons that touch an edge, and
+    /// points between them but on some edges.
     pub fn of_walks(
         domain: &Domain,
         walks: &[Walk],
         spacing: f64,
+        touched: &[(u32, Point)],
         whole: &BTreeSet<u32>,
     ) -> Result<Self, EngineError> {
         if !(spacing > 0.0 && spacing.is_finite()) {
             return Err(EngineError::Spacing { spacing });
         }
-        let pieces = |edge: u32| match whole.contains(&edge) {
-            false => (domain.edge(edge).length / spacing).ceil().max(1.0),
+        let stops = |edge: u32| {
+            let from = touched.partition_point(|touch| touch.0 < edge);
+            let to = from + touched[from..].partition_point(|touch| touch.0 == edge);
+            &touched[from..to]
+        };
+        let pieces = |edge: u32, length: f64| match whole.contains(&edge) {
+            false => (length / spacing).ceil().max(1.0),
             true => 1.0,
         };
         let edges = || walks.iter().flat_map(Walk::edges);
-        let n = edges().map(pieces).sum::<f64>();
+        let most =
+            |edge: u32| pieces(edge, domain.edge(edge).length) + 2.0 * stops(edge).len() as f64;
+        let n = edges().map(most).sum::<f64>();
         if n > MOST {
             return Err(EngineError::Samples { samples: n, spacing });
         }
@@ -51,16 +62,41 @@ impl Samples {
                     Corner::Reflex => [Site::corner(edge).0; 2],
                     Corner::Straight => [sides[1]; 2],
                 };
+                let within = [Site::edge(edge).0; 2];
                 samples.push(start, at_start);
-                let n = pieces(edge);
-                for k in 1..n as u32 {
-                    let point = start + (end - start) * (f64::from(k) / n);
-                    samples.push(point, [Site::edge(edge).0; 2]);
+                let stops = stops(edge).iter().map(|touch| touch.1);
+                if stops.len() == 0 {
+                    samples.push_between(
+                        start,
+                        end,
+                        pieces(edge, domain.edge(edge).length),
+                        within,
+                    );
+                    continue;
+                }
+                let mut from = start;
+                for to in stops.chain(std::iter::once(end)) {
+                    samples.push_between(from, to, pieces(edge, (to - from).norm()), within);
+                    if to != end {
+                        samples.touched.push(samples.len());
+                        samples.push(to, within);
+                    }
+                    from = to;
                 }
             }
             samples.rings.push(first..samples.len());
         }
         Ok(samples)
+    }
+
+    /// Points between two places, in so many pieces; the same ones on the way back.
+    fn push_between(&mut self, from: Point, to: Point, pieces: f64, elements: [u32; 2]) {
+        let is_forward = from.lexicographic(to).is_lt();
+        let (low, high) = if is_forward { (from, to) } else { (to, from) };
+        for k in 1..pieces as u32 {
+            let k = if is_forward { f64::from(k) } else { pieces - f64::from(k) };
+            self.push(low + (high - low) * (k / pieces), elements);
+        }
     }
 
     /// Samples of the outline of a mask, at most so far from one another, in sides of cells: the middles of cracks,
@@ -118,6 +154,7 @@ impl Samples {
             points: Vec::with_capacity(samples),
             elements: Vec::with_capacity(samples),
             rings: Vec::with_capacity(rings),
+            touched: Vec::new(),
         }
     }
 
@@ -136,11 +173,12 @@ impl Samples {
         before != after
     }
 
-    /// The edge between whose ends a sample lies, if it is no corner.
+    /// The edge between whose ends a sample lies, if it is no corner of any polygon.
     pub fn edge_within(&self, domain: &Domain, sample: u32) -> Option<u32> {
         let site = Site(self.elements[sample as usize][0]);
         let is_within = site.is_edge()
             && !self.is_convex(sample)
+            && self.touched.binary_search(&sample).is_err()
             && self.points[sample as usize] != domain.edge(site.index()).start;
         is_within.then(|| site.index())
     }

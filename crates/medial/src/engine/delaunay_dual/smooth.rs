@@ -73,16 +73,23 @@ pub(super) fn retract(
             continue;
         };
         let Some(&(_, radius)) = disks.get(node as usize) else { continue };
+        // The boundary behind the edge, seen from what is left: on to its second sample, as the first group is to its left.
         let ends = [edge.across, triangles.reversed(edge.across)];
         let [a, b] = ends.map(|edge| dual.sample_at(triangles, edge));
+        let (a, b) = if node == edge.from { (a, b) } else { (b, a) };
         let ring = samples.ring_of(a).clone();
-        // From the first sample on to the second one, the shorter way.
+        if !ring.contains(&b) {
+            continue;
+        }
         let n = ring.end - ring.start;
         let last = ring.end - 1;
         let closing = (given[ring.start as usize] - given[last as usize]).norm();
         let length = along[last as usize] + closing;
         let way = |a: u32, b: u32| (along[b as usize] - along[a as usize]).rem_euclid(length);
-        let (a, b) = if way(a, b) <= way(b, a) { (a, b) } else { (b, a) };
+        // What is left may be the lesser part.
+        if way(a, b) > way(b, a) {
+            continue;
+        }
         let [from, to] = [a, b].map(|sample| given[sample as usize]);
         let half = (to - from) * 0.5;
         let radius = radius * FLATTER;
@@ -122,6 +129,7 @@ mod tests {
             points,
             elements: vec![[0; 2]; n as usize],
             rings: std::iter::once(0..n).collect(),
+            ..Samples::default()
         };
         let moved = average(&mut samples, 1.0, 1.0);
         assert!((0.12..=MOST).contains(&moved), "{moved}");
