@@ -4,12 +4,14 @@ use medial::raster::{Grid, Mask};
 
 /// A number for each pixel: that of the region that it is in.
 ///
-/// Regions are connected by sides of pixels, and numbered from 0 in the order of their first pixels, row by row.
+/// Regions are connected by sides of pixels, and numbered from 0 in the order of their first pixels, row by row; those
+/// that were [given](Self::given) are what they are. Each belongs to a [class](crate::Class).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Labels {
     grid: Grid,
     labels: Vec<u32>,
-    n_regions: u32,
+    /// The class of each region.
+    classes: Vec<u32>,
 }
 
 /// What is known of a region.
@@ -26,6 +28,22 @@ pub struct Region {
 }
 
 impl Region {
+    /// What is known of several regions together.
+    pub(crate) fn united<'r>(parts: impl Iterator<Item = &'r Self>) -> Self {
+        let mut whole = Self { cells: 0, mean: [0.0; 3], first: [u32::MAX; 2], last: [0; 2] };
+        let mut sums = [0.0_f64; 3];
+        for part in parts {
+            whole.cells += part.cells;
+            whole.first = [0, 1].map(|axis| whole.first[axis].min(part.first[axis]));
+            whole.last = [0, 1].map(|axis| whole.last[axis].max(part.last[axis]));
+            for (sum, &mean) in sums.iter_mut().zip(&part.mean) {
+                *sum += part.cells as f64 * f64::from(mean);
+            }
+        }
+        whole.mean = sums.map(|sum| (sum / whole.cells.max(1) as f64) as f32);
+        whole
+    }
+
     /// How far a value is from their mean.
     #[must_use]
     pub fn distance(&self, value: [f32; 3]) -> f32 {
@@ -47,6 +65,7 @@ impl Labels {
         let columns = grid.columns as usize;
         let mut sets = DisjointSets::default();
         let mut labels = vec![Self::NONE; class.len()];
+        let mut classes = Vec::new();
         for k in 0..class.len() {
             if class[k] == Self::NONE {
                 continue;
@@ -64,24 +83,55 @@ impl Labels {
                 (Some(one), None) | (None, Some(one)) => one,
                 (None, None) => {
                     sets.push();
+                    classes.push(class[k]);
                     sets.len() as u32 - 1
                 }
             };
         }
-        Self { grid, labels, n_regions: 0 }.numbered(|label| sets.first(label))
+        Self { grid, labels, classes }.numbered(|label| sets.first(label))
+    }
+
+    /// The regions that an image of labels says: one for each number, connected or not, in increasing order, each a class
+    /// of its own. What is not a number is no data.
+    ///
+    /// ```
+    /// use medial::raster::Grid;
+    /// use medial_image::Labels;
+    /// let labels = Labels::given(Grid::of_image(4, 1), &[7.0, f64::NAN, 2.0, 7.0]);
+    /// assert_eq!(labels.labels(), [1, Labels::NONE, 0, 1]);
+    /// ```
+    ///
+    /// # Panics
+    /// If there are not as many numbers as pixels.
+    #[must_use]
+    pub fn given(grid: Grid, numbers: &[f64]) -> Self {
+        assert_eq!(numbers.len() as u64, grid.n_cells(), "a number for each pixel");
+        let mut known: Vec<f64> =
+            numbers.iter().copied().filter(|number| !number.is_nan()).collect();
+        // Zeros are the same whatever their sign.
+        known.iter_mut().for_each(|number| *number += 0.0);
+        known.sort_unstable_by(f64::total_cmp);
+        known.dedup();
+        let label = |number: &f64| match number.is_nan() {
+            true => Self::NONE,
+            false => known.partition_point(|other| other < number) as u32,
+        };
+        let labels = numbers.iter().map(label).collect();
+        Self { grid, labels, classes: (0..known.len() as u32).collect() }
     }
 
     /// The same regions, those joined to which something gives the same number, numbered anew.
     pub(crate) fn numbered(mut self, mut name: impl FnMut(u32) -> u32) -> Self {
-        let most = self.labels.iter().filter(|&&label| label != Self::NONE).max();
-        let mut names = vec![Self::NONE; most.map_or(0, |&most| most as usize + 1)];
+        let mut names = vec![Self::NONE; self.classes.len()];
         let mut numbers = names.clone();
+        let mut cells = vec![0_u64; self.classes.len()];
         let mut n_regions = 0;
         for label in self.labels.iter_mut().filter(|label| **label != Self::NONE) {
             let known = &mut names[*label as usize];
             if *known == Self::NONE {
                 *known = name(*label);
             }
+            cells[*label as usize] += 1;
             let number = &mut numbers[*known as usize];
             if *number == Self::NONE {
                 *number = n_regions;
@@ -89,7 +139,24 @@ impl Labels {
             }
             *label = *number;
         }
-        self.n_regions = n_regions;
+        // A region is of the class that has most of its pixels; of the same, the first one.
+        let was = (0..).zip(&names).filter(|(_, name)| **name != Self::NONE);
+        let mut parts: Vec<(u32, u32, u64)> = was
+            .map(|(label, &name): (usize, _)| {
+                (numbers[name as usize], self.classes[label], cells[label])
+            })
+            .collect();
+        parts.sort_unstable();
+        let mut best = vec![(0, 0); n_regions as usize];
+        for part in parts.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)) {
+            let (region, class, _) = part[0];
+            let cells: u64 = part.iter().map(|part| part.2).sum();
+            let best = &mut best[region as usize];
+            if cells > best.0 {
+                *best = (cells, class);
+            }
+        }
+        self.classes = best.into_iter().map(|(_, class)| class).collect();
         self
     }
 
@@ -108,13 +175,22 @@ impl Labels {
     /// The number of regions.
     #[must_use]
     pub fn len(&self) -> u32 {
-        self.n_regions
+        self.classes.len() as u32
     }
 
     /// Whether there is none.
     #[must_use]
     pub fn is_empty(&self) -> bool {
-        self.n_regions == 0
+        self.classes.is_empty()
+    }
+
+    /// The class of a region.
+    ///
+    /// # Panics
+    /// If there is no such region.
+    #[must_use]
+    pub fn class_of(&self, region: u32) -> u32 {
+        self.classes[region as usize]
     }
 
     /// The region of a pixel, by column and row; `None` outside of the grid and where there is no data.
@@ -132,8 +208,8 @@ impl Labels {
     #[must_use]
     pub fn regions(&self, field: &Field) -> Vec<Region> {
         let nothing = Region { cells: 0, mean: [0.0; 3], first: [u32::MAX; 2], last: [0; 2] };
-        let mut regions = vec![nothing; self.n_regions as usize];
-        let mut sums = vec![[0.0_f64; 3]; self.n_regions as usize];
+        let mut regions = vec![nothing; self.classes.len()];
+        let mut sums = vec![[0.0_f64; 3]; self.classes.len()];
         let columns = self.grid.columns.max(1) as usize;
         for (k, (&label, value)) in self.labels.iter().zip(field.values()).enumerate() {
             let Some(region) = regions.get_mut(label as usize) else { continue };

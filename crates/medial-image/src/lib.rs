@@ -2,7 +2,7 @@
 //!
 //! A [`Field`] gives each pixel three numbers between which distances mean something, as L\*u\*v\* of a colour.
 //! [`feature_space`], [`mean_shift`], [`thresholds`] and [`near_colours`] turn it into [`Labels`], one number for
-//! each pixel, that of the connected region that it is in; regions are [`Mask`](medial::raster::Mask)s and
+//! each pixel, that of the connected region that it is in, and a palette of [`Class`]es; regions are [`Mask`](medial::raster::Mask)s and
 //! polygons. A [`Selection`] of them, by points or as a whole, makes [`Objects`], whose [`Borders`] can be
 //! simplified or smoothed, and which can be compared with those of another image ([`Changes`]).
 //!
@@ -24,6 +24,7 @@
 
 mod borders;
 mod changes;
+mod classes;
 mod colour;
 mod feature_space;
 mod field;
@@ -40,6 +41,7 @@ mod simple;
 
 pub use borders::Borders;
 pub use changes::{Change, ChangeError, Changes, Part, Uncompared};
+pub use classes::Class;
 pub use colour::{luv, srgb};
 pub use feature_space::{Analysis, Resolution, feature_space};
 pub use field::{Field, FieldError};

@@ -39,7 +39,7 @@ impl Objects {
         for (number, object) in (0..).zip(chosen.objects()) {
             object.iter().for_each(|&region| number_of[region as usize] = number);
             let parts = object.iter().map(|&region| &regions[region as usize]);
-            objects.push(Object { regions: object.clone(), whole: united(parts) });
+            objects.push(Object { regions: object.clone(), whole: Region::united(parts) });
         }
         let number = |&label: &u32| match label {
             Labels::NONE => Labels::NONE,
@@ -106,21 +106,4 @@ impl Objects {
     pub(crate) fn windows(&self, object: u32) -> Vec<Window> {
         Window::parts(self.pixels.of(object), self.grid.columns)
     }
-}
-
-/// What is known of several regions together.
-fn united<'r>(parts: impl Iterator<Item = &'r Region>) -> Region {
-    let nothing = Region { cells: 0, mean: [0.0; 3], first: [u32::MAX; 2], last: [0; 2] };
-    let mut sums = [0.0_f64; 3];
-    let mut whole = nothing;
-    for part in parts {
-        whole.cells += part.cells;
-        whole.first = [0, 1].map(|axis| whole.first[axis].min(part.first[axis]));
-        whole.last = [0, 1].map(|axis| whole.last[axis].max(part.last[axis]));
-        for (sum, &mean) in sums.iter_mut().zip(&part.mean) {
-            *sum += part.cells as f64 * f64::from(mean);
-        }
-    }
-    whole.mean = sums.map(|sum| (sum / whole.cells.max(1) as f64) as f32);
-    whole
 }

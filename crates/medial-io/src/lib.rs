@@ -73,7 +73,9 @@ pub use feature::{Feature, Json, Layer, Note, Part, Polygons};
 pub use format::{Content, Format, UnknownFormat};
 pub use open::open;
 pub use options::ReadOptions;
-pub use path::{Drawing, default_tolerance, domain_tolerance};
+pub use path::{
+    Drawing, default_tolerance, domain_tolerance, line_columns, line_records, point_record,
+};
 pub use stream::read_stream;
 pub use text::text;
 

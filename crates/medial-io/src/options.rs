@@ -1,3 +1,4 @@
+use crate::image::WorldFile;
 use crate::svg::Fonts;
 
 /// What a reader is told besides the format.
@@ -17,6 +18,8 @@ pub struct ReadOptions {
     pub invert: bool,
     /// Whether images come as masks alone, without the polygons of their outlines, which take much more memory.
     pub masks_alone: bool,
+    /// What files beside an image say of where it lies.
+    pub world: WorldFile,
     /// Fonts for the text of drawings.
     pub fonts: Fonts,
 }

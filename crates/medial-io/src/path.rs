@@ -1,3 +1,4 @@
+use crate::record::{Record, Shape, Value};
 use medial::axis::{Accuracy, Curve, CurveKind, Joining, Keypoint, MedialAxis, Path, Polyline};
 use medial::domain::Domain;
 use medial::geom::Point;
@@ -207,6 +208,59 @@ pub(crate) fn records(
             Box::new(lines.map(|line| PathRecord::joined(axis, line)))
         }
     }
+}
+
+/// What the first values of [`line_records`] are; after them three for each measure, by [`line_columns`].
+const LINE_COLUMNS: [&str; 7] =
+    ["length", "radius_min", "radius_max", "radius_start", "radius_end", "kind_start", "kind_end"];
+
+/// The names of the values of [`line_records`].
+#[must_use]
+pub fn line_columns(measures: &[Measure]) -> Vec<String> {
+    let of = |&measure: &Measure| measure_columns(&Significance { measure, paths: Vec::new() });
+    LINE_COLUMNS.map(str::to_owned).into_iter().chain(measures.iter().flat_map(of)).collect()
+}
+
+/// The lines of an axis as records, and keypoints that no path joins as points: with their length, radii and ends, and the
+/// measures of each, the largest value and those at the start and the end.
+#[must_use]
+pub fn line_records(axis: &MedialAxis, measured: &[Significance], drawing: Drawing) -> Vec<Record> {
+    let tolerance = drawing.tolerance(axis);
+    let line = |line: PathRecord| {
+        let radii =
+            [line.radius_min(), line.radius_max(), line.ends[0].radius, line.ends[1].radius];
+        let numbers = std::iter::once(line.length()).chain(radii).map(Value::from);
+        let kinds = line.ends.iter().map(|end| Value::from(end.kind.name()));
+        let measures = measured.iter().flat_map(|of| line.values(of));
+        let measures = measures.map(|value| value.map_or(Value::None, Value::from));
+        let points = line.points(drawing, tolerance);
+        let shape = match drawing.radius_as_z {
+            true => Shape::LineInSpace(points),
+            false => Shape::Line(points.into_iter().map(|(point, _)| point).collect()),
+        };
+        Record { values: numbers.chain(kinds).chain(measures).collect(), shape }
+    };
+    let alone = (0..).zip(axis.degrees()).filter(|&(_, degree)| degree == 0);
+    let point = |(keypoint, _): (u32, u32)| {
+        let Keypoint { position, radius, kind } = axis.keypoints().at(keypoint);
+        let shape = match drawing.radius_as_z {
+            true => Shape::PointInSpace(position, radius),
+            false => Shape::Point(position),
+        };
+        point_record(radius, kind.name(), measured.len(), shape)
+    };
+    let lines: Vec<Record> = records(axis, drawing).map(line).collect();
+    lines.into_iter().chain(alone.map(point)).collect()
+}
+
+/// The same of a point, which has no length and no values of measures.
+#[must_use]
+pub fn point_record(radius: f64, kind: &str, n_measures: usize, shape: Shape) -> Record {
+    let radii = [Value::from(radius), radius.into(), radius.into(), radius.into()];
+    let kinds = [Value::from(kind), kind.into()];
+    let measures = vec![Value::None; 3 * n_measures];
+    let values = std::iter::once(Value::from(0.0)).chain(radii).chain(kinds).chain(measures);
+    Record { values: values.collect(), shape }
 }
 
 /// The keypoints that are written: all, or those where lines end.

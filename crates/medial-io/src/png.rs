@@ -45,20 +45,6 @@ pub fn overlay_grid(overlay: &Overlay, options: &Options) -> Grid {
     overlay.drawing(&svg::painted_options(options), f64::from(SCALE))
 }
 
-/// The text of a world file, which tells where the pixels of a picture lie: six lines with the width of a pixel, two
-/// turns that are 0, its height, which is negative where rows go down, and the centre of the first pixel.
-///
-/// ```
-/// use medial::{geom::Point, raster::Grid};
-/// let grid = Grid { origin: Point::new(100.0, 50.0), cell: [2.0, -2.0], columns: 3, rows: 4 };
-/// assert_eq!(medial_io::png::world_file(&grid), "2\n0\n0\n-2\n101\n49\n");
-/// ```
-#[must_use]
-pub fn world_file(grid: &Grid) -> String {
-    let ([width, height], first) = (grid.cell, grid.centre(0, 0));
-    format!("{width}\n0\n0\n{height}\n{}\n{}\n", first.x, first.y)
-}
-
 fn failed(why: String) -> Error {
     Error::Picture { why }
 }

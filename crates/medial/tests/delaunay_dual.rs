@@ -7,7 +7,8 @@ use medial::axis::{KeypointKind, MedialAxis};
 use medial::check::{Defect, defects, difference};
 use medial::domain::Domain;
 use medial::engine::{DelaunayDual, DualKind, DualNode, DualPruning, Options, path_tracing};
-use medial::geom::Point;
+use medial::geom::{Point, signed_area};
+use medial::ops::{Hierarchy, Measure};
 use medial::raster::{Grid, Mask, default_cell, outline, topology};
 use support::random::{Random, random_domains};
 use support::shapes;
@@ -498,4 +499,73 @@ fn rounded_sizes_of_cells_part_no_circle() {
     assert_ne!(oblong, square);
     assert_eq!(counts([0.3, -0.1]), oblong);
     assert_eq!(counts([1.0 / 3.0, -1.0 / 9.0]), oblong);
+}
+
+#[test]
+fn the_border_of_polygons_that_touch_is_rings_that_pass_no_point_twice() {
+    // A hole that touches the outer ring at a corner, one that touches another one, and a polygon beside all.
+    let rings = [
+        vec![(0, 0), (12, 0), (12, 12), (0, 12)],
+        vec![(0, 0), (2, 5), (5, 2)],
+        vec![(6, 6), (6, 9), (9, 9)],
+        vec![(6, 6), (4, 6), (4, 8)],
+    ];
+    let other = vec![(12, 4), (16, 4), (16, 8)];
+    let ring = |ring: &Vec<(i32, i32)>| -> Vec<Point> {
+        ring.iter().map(|&(x, y)| Point::new(f64::from(x), f64::from(y))).collect()
+    };
+    let polygons = [rings.iter().map(ring).collect(), vec![ring(&other)]];
+    let domain = Domain::from_polygons(&polygons, &medial::domain::Options::default()).unwrap();
+    let options = Options { spacing: Some(0.25), ..Options::default() };
+    let dual = DelaunayDual::new(&domain, &options).unwrap();
+    let area = |polygon: &Vec<Vec<Point>>| -> f64 { polygon.iter().map(|r| signed_area(r)).sum() };
+    let whole = dual.border();
+    assert_eq!(whole.iter().map(Vec::len).collect::<Vec<_>>(), [4, 1]);
+    assert!((whole.iter().map(area).sum::<f64>() - domain.area()).abs() < 1e-9);
+    let components =
+        |dual: &DelaunayDual<'_>| graph_topology(&dual.axis(DualPruning::Chord(0.01)).unwrap());
+    let before = components(&dual);
+    let drawn_back = dual.retracted(0.5, &options).unwrap();
+    assert_eq!(components(&drawn_back), before);
+    for polygon in whole.iter().chain(&drawn_back.border()) {
+        assert!(signed_area(&polygon[0]) > 0.0);
+        assert!(polygon[1..].iter().all(|hole| signed_area(hole) < 0.0));
+        for ring in polygon {
+            let mut points = ring.clone();
+            points.sort_by(|a, b| a.lexicographic(*b));
+            assert!(points.windows(2).all(|pair| pair[0] != pair[1]), "{ring:?}");
+        }
+    }
+}
+
+#[test]
+fn measures_of_a_mask_are_those_by_which_its_dual_is_pruned() {
+    let options = Options::default();
+    let mut kept = [0.0; 2];
+    for seed in 0..60 {
+        let mask = random_mask(seed);
+        let polygons = outline(&mask);
+        let Ok(domain) = Domain::from_polygons(&polygons, &medial::domain::Options::default())
+        else {
+            continue;
+        };
+        let dual = DelaunayDual::of_mask(&mask, &options).unwrap();
+        let whole = dual.axis(DualPruning::Nothing).unwrap();
+        let hierarchy = Hierarchy::new(&domain, &whole).unwrap();
+        let chord = hierarchy.significance(Measure::Chord).paths;
+        // More than half of a ring is behind nothing.
+        let longest = domain
+            .walks()
+            .iter()
+            .map(|walk| walk.edges().map(|edge| domain.edge(edge).length).sum::<f64>());
+        let edges = domain.edges().iter().map(|edge| edge.length);
+        let half = 0.5 * longest.fold(0.0, f64::max) + edges.fold(0.0, f64::max);
+        let most = chord.iter().map(|span| span.most).filter(|most| most.is_finite());
+        assert!(most.fold(0.0, f64::max) <= half, "{seed}");
+        let pruned = dual.axis(DualPruning::Chord(2.0)).unwrap();
+        kept[0] += pruned.paths().len() as f64;
+        kept[1] += chord.iter().filter(|span| span.most > 2.0).count() as f64;
+    }
+    // The outline through the middles of sides is a little shorter than that along them.
+    assert!(kept[0] > 1000.0 && (kept[1] / kept[0] - 1.0).abs() < 0.1, "{kept:?}");
 }

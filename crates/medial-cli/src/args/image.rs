@@ -1,7 +1,7 @@
 use super::segment::colour;
 use super::{
-    ChosenEngine, Height, ImageRun, Pruning, Segmentation, Target, not_negative, point, positive,
-    two_points,
+    ChosenEngine, Height, ImageRun, Line, Pruning, Segmentation, Target, measure, not_negative,
+    point, positive, two_points,
 };
 use crate::failure::Failure;
 use clap::{Args, ValueEnum};
@@ -24,7 +24,10 @@ Layers, which are in the property `layer` and in pictures have these colours:
   delaunay  the Delaunay graph of samples of the border, inside (white, thin)
   crust     its edges that tell the border from the samples alone (orange)
   dual      the dual graph: middles of triangles (blue, dashed)
-  axis      the medial axis, a line a branch, pruned by a chord residual of 2 pixels (red)
+  nodes     its nodes by their kind: dangling, internal, ramification_1, ramification_2; pictures leave internal ones
+            out (green)
+  axis      the medial axis, a line a branch, pruned by a chord residual of 2 pixels (red); with --prune none, --by path
+            and --measures chord all levels of it at once: what lies above a value is the axis at that level
 Of --compare they are: change, an outline of each object in either image (white), gained (green), lost (red).
 
 --simplify and --smooth-border change the borders between regions, once for both sides, so that regions still fit;
@@ -33,12 +36,17 @@ Of --compare they are: change, an outline of each object in either image (white)
 Formats: geojson, geojsonl, csv, wkt, wkb, dxf, svg, png; gpkg, with a table for each layer; other tables (shp, fgb,
 parquet) of one layer.
 
+What was chosen can be kept and compared: --labels writes the number of each pixel's object, and --method labels reads
+it again, also as the other image of --compare; so the objects of either image are chosen in their own way.
+
 Examples:
   medial image fixtures/images/lake.png -o scene.geojson
   medial image fixtures/images/lake.png --at 25,-65 --layers delaunay,crust,dual,axis -o lake.svg
   medial image fixtures/images/atlas.png --clicks fixtures/images/atlas.clicks.csv -o map.png
   medial image fixtures/images/lake.png --min-pixels 9 --simplify 1 --engine path_tracing --to wkt
   medial image fixtures/images/lake.png --compare fixtures/images/lake.png --layers change --to csv
+  medial image fixtures/images/lake.png --at 25,-65 --labels lake.tiff -o lake.geojson
+  medial image lake.tiff --method labels --compare lake.tiff --to csv
 
 Exit status: 0 all done; 1 no usable result; 2 wrong usage; 3 some regions were left out.";
 
@@ -63,10 +71,20 @@ pub struct ImageArgs {
     /// themselves in a corner of 180 degrees or more
     #[arg(long, value_name = "D", value_parser = positive, allow_negative_numbers = true)]
     pub simplify: Option<f64>,
-    /// What is written, separated by commas: border, delaunay, crust, dual, axis; by default border and axis. Of
+    /// What is written, separated by commas: border, delaunay, crust, dual, nodes, axis; by default border and axis. Of
     /// --compare: change, gained, lost, by default all
     #[arg(long, value_name = "LAYER", value_delimiter = ',')]
     pub layers: Vec<Layer>,
+    /// Write these measures of significance of the axis, separated by commas: the largest value and those at both ends;
+    /// see `medial prune --help`
+    #[arg(long, value_name = "MEASURE", value_delimiter = ',', value_parser = measure)]
+    pub measures: Vec<Measure>,
+    /// What makes one line of the axis: a branch between ends and junctions, or a path between neighbours
+    #[arg(long, value_name = "WHAT", default_value = "branch")]
+    pub by: Line,
+    /// Write to FILE, as a TIFF image of 32 bits, the number of each pixel's object from 1 on, 0 in none
+    #[arg(long, value_name = "FILE", conflicts_with = "compare")]
+    pub labels: Option<PathBuf>,
     /// Largest distance between a curve of the axis and the polyline drawn for it, in units of the input; by
     /// default 1e-4 of the longer side of the region's box
     #[arg(long, value_name = "T", value_parser = positive, allow_negative_numbers = true)]
@@ -81,6 +99,12 @@ pub struct ImageArgs {
     /// objects of the first one; bands go from 0 to 100 as in the first one
     #[arg(long, value_name = "IMAGE")]
     pub compare: Option<PathBuf>,
+    /// The same as --mask, for the image of --compare
+    #[arg(long, value_name = "FILE", requires = "compare")]
+    pub compare_mask: Option<PathBuf>,
+    /// Clicks for the image of --compare, instead of --at, --remove and --clicks
+    #[arg(long, value_name = "FILE", requires = "compare")]
+    pub compare_clicks: Option<PathBuf>,
     /// The least overlap of an object with what it became: what both share, of what either has; less of it, and one
     /// vanished and another appeared
     #[arg(long, value_name = "SHARE", value_parser = not_negative, default_value = "0.1",
@@ -126,6 +150,7 @@ pub enum Layer {
     Delaunay,
     Crust,
     Dual,
+    Nodes,
     Axis,
     Change,
     Gained,
@@ -139,6 +164,7 @@ impl Layer {
             Self::Delaunay => "delaunay",
             Self::Crust => "crust",
             Self::Dual => "dual",
+            Self::Nodes => "nodes",
             Self::Axis => "axis",
             Self::Change => "change",
             Self::Gained => "gained",
@@ -155,11 +181,11 @@ impl Layer {
 impl ImageArgs {
     /// The layers to write, each once, the lowest one in a picture first.
     pub fn layers(&self) -> Vec<Layer> {
-        use Layer::{Axis, Border, Change, Crust, Delaunay, Dual, Gained, Lost};
+        use Layer::{Axis, Border, Change, Crust, Delaunay, Dual, Gained, Lost, Nodes};
         let usual: &[Layer] =
             if self.compare.is_some() { &[Change, Gained, Lost] } else { &[Border, Axis] };
         let asked = if self.layers.is_empty() { usual } else { &self.layers[..] };
-        let all = [Delaunay, Crust, Border, Dual, Axis, Gained, Lost, Change];
+        let all = [Delaunay, Crust, Border, Dual, Axis, Nodes, Gained, Lost, Change];
         all.into_iter().filter(|layer| asked.contains(layer)).collect()
     }
 
@@ -204,7 +230,7 @@ impl ImageArgs {
                 None => format!("--layers {name} is for --compare"),
             });
         }
-        let graphs = [Layer::Delaunay, Layer::Crust, Layer::Dual];
+        let graphs = [Layer::Delaunay, Layer::Crust, Layer::Dual, Layer::Nodes];
         if engine.engine != Some(Engine::DelaunayDual)
             && let Some(layer) = graphs.iter().find(|layer| layers.contains(layer))
         {
@@ -223,6 +249,7 @@ impl ImageArgs {
             ("--smooth-border", self.engine.smooth_border.is_some()),
             ("--retract", self.engine.retract.is_some()),
             ("--z", self.z.is_some()),
+            ("--measures", !self.measures.is_empty()),
         ];
         if let Some((name, _)) = of_axes.iter().find(|(_, said)| *said && self.compare.is_some()) {
             return usage(format!("{name} is not for --compare, which computes no axes"));

@@ -19,7 +19,7 @@ pub use engine::{ChosenEngine, engine_for};
 pub use image::{Choice, ImageArgs, Layer as ImageLayer};
 pub use offset::OffsetArgs;
 pub use pruning::{Prune, Pruning};
-pub use segment::{ImageRun, Method as SegmentMethod, SegmentArgs, Segmentation};
+pub use segment::{ImageRun, Method as SegmentMethod, SegmentArgs, Segmentation, colour};
 pub use walls::WallsArgs;
 
 use crate::failure::{Failure, Status};

@@ -10,16 +10,19 @@ Every pixel of the image comes into one region; regions are connected by sides o
 and their polygons share their borders exactly. feature_space looks for the colours that stand out in the whole
 image, mean_shift for what is alike in place and colour; threshold cuts at values of the first band in its own units,
 or of the lightness L*, colours takes what is near to colours that are named. Colours are compared in L*u*v*; bands
-that are no colours go from 0, their least value, to 100 for distances and means.
-What is transparent, has the value for no data, or is not a number, is in no region.
+that are no colours go from 0, their least value, to 100 for distances and means. labels takes the regions that an
+image of numbers says, such as one of --labels: all pixels of a number, or of a colour, are one region.
+What is transparent, has the value for no data, or is not a number, is in no region; neither is what --mask or
+--no-data leaves out. A world file beside the image, and a .prj with it, say where it lies if it does not itself.
 
 Formats: geojson, geojsonl, csv, wkt, wkb, rings, dxf and tables, a polygon for each region with its number,
-pixels, area, mean values and colour; png, the regions in their mean colours.
+pixels, area, mean values, colour and class; png, the regions in their mean colours.
 
 Examples:
   medial segment fixtures/images/horse.png --method threshold --limits 50 -o horse.geojson
   medial segment fixtures/images/horse.png --method feature-space --min-region 20 --to csv
   medial segment fixtures/images/horse.png --method mean-shift -o smooth.png --labels n.tiff
+  medial segment fixtures/images/lake.png --palette lake.gpl --labels lake.tiff -o lake.gpkg
 
 Exit status: 0 all done; 1 no usable result; 2 wrong usage; 3 some regions were left out.";
 
@@ -36,6 +39,10 @@ pub struct SegmentArgs {
     /// Write to FILE, as a TIFF image of 32 bits, the number of each pixel's region from 1 on; 0 for no data
     #[arg(long, value_name = "FILE")]
     pub labels: Option<PathBuf>,
+    /// Write to FILE the palette, the classes that the method found: the feature colours of feature_space, what lies
+    /// between thresholds, or near to each of colours; a table as csv, or for GIMP and others a file .gpl
+    #[arg(long, value_name = "FILE")]
+    pub palette: Option<PathBuf>,
     #[command(flatten)]
     pub run: ImageRun,
 }
@@ -43,7 +50,7 @@ pub struct SegmentArgs {
 /// How an image is parted into regions.
 #[derive(Debug, Args)]
 pub struct Segmentation {
-    /// How pixels come into regions: feature_space, mean_shift, threshold, colours
+    /// How pixels come into regions: feature_space, mean_shift, threshold, colours, labels
     #[arg(long, value_name = "NAME", default_value = "feature_space", value_parser = method)]
     pub method: Method,
     /// How finely feature_space looks: under, over, quantization
@@ -76,6 +83,13 @@ pub struct Segmentation {
     /// the first three
     #[arg(long, value_name = "N,N", value_delimiter = ',', value_parser = count)]
     pub bands: Vec<NonZeroUsize>,
+    /// An image of the same pixels: where it is 0 or transparent there is no data
+    #[arg(long, value_name = "FILE")]
+    pub mask: Option<PathBuf>,
+    /// What stands for no data besides what the image says: a colour as RRGGBB, or of bands a number that all that are
+    /// looked at have
+    #[arg(long, value_name = "VALUE", allow_hyphen_values = true)]
+    pub no_data: Option<String>,
 }
 
 /// What commands on colour images say of a run.
@@ -142,6 +156,7 @@ pub enum Method {
     MeanShift,
     Threshold,
     Colours,
+    Labels,
 }
 
 fn method(word: &str) -> Result<Method, String> {
@@ -150,7 +165,8 @@ fn method(word: &str) -> Result<Method, String> {
         "mean_shift" => Ok(Method::MeanShift),
         "threshold" => Ok(Method::Threshold),
         "colours" => Ok(Method::Colours),
-        _ => Err("known are feature_space, mean_shift, threshold, colours".to_owned()),
+        "labels" => Ok(Method::Labels),
+        _ => Err("known are feature_space, mean_shift, threshold, colours, labels".to_owned()),
     }
 }
 
@@ -175,7 +191,8 @@ impl From<Fineness> for Resolution {
     }
 }
 
-pub(super) fn colour(word: &str) -> Result<[u8; 3], String> {
+/// Red, green and blue of six hexadecimal digits.
+pub fn colour(word: &str) -> Result<[u8; 3], String> {
     let digits = word.strip_prefix('#').unwrap_or(word);
     let number = u32::from_str_radix(digits, 16).ok().filter(|_| digits.len() == 6);
     let number = number.ok_or("a colour is six hexadecimal digits, as ff8000")?;

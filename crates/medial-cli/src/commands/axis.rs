@@ -12,7 +12,7 @@ use medial::engine::{
     self, DelaunayDual, EngineError, RidgeOptions, Sampling, both_sides, brushfire,
     brushfire_of_domain, exterior, interior, of_mask, ridge_following, ridge_following_of_mask,
 };
-use medial::ops::{Hierarchy, Significance};
+use medial::ops::{Hierarchy, Measure, Significance};
 use medial::raster::default_cell;
 use medial_io::svg::Options;
 use medial_io::{Drawing, Feature, Format, csv};
@@ -103,16 +103,11 @@ fn run_on(args: &'static AxisArgs, documents: Documents) -> Result<Status, Failu
                 traced(engine, region, pruning, feature, domain, &options, &mut sampling)
             })?;
             stages.sampling = sampling;
-            let axes: Vec<_> = if !args.pruning.removes(feature, args.engine.of(feature))
-                && args.measures.is_empty()
-            {
-                axes.into_iter().map(|axis| (axis, Vec::new())).collect()
-            } else {
-                timed(&mut stages.operations, || {
-                    let measured = |axis| measured(args, feature, domain, axis);
-                    axes.iter().map(measured).collect::<Result<_, _>>()
-                })?
-            };
+            let axes: Vec<_> = timed(&mut stages.operations, || {
+                let measured =
+                    |axis| measured(&args.pruning, &args.measures, feature, domain, axis);
+                axes.into_iter().map(measured).collect::<Result<_, _>>()
+            })?;
             Ok(timed(&mut stages.write, || {
                 let table = |(axis, _): &(MedialAxis, _)| csv::node_rows(feature, axis);
                 let table: String = match args.nodes {
@@ -153,16 +148,20 @@ fn asks_for_masks_alone(args: &AxisArgs, format: Format) -> bool {
         && !matches!(format, Format::Svg | Format::Png)
 }
 
-/// What is left of an axis, with what was asked to be measured.
-fn measured(
-    args: &AxisArgs,
+/// What pruning leaves of an axis, if it was asked for, with what was asked to be measured.
+pub fn measured(
+    pruning: &Pruning,
+    measures: &[Measure],
     feature: &Feature,
     domain: &Domain,
-    axis: &MedialAxis,
+    axis: MedialAxis,
 ) -> Result<(MedialAxis, Vec<Significance>), Entry> {
-    let hierarchy = Hierarchy::new(domain, axis).map_err(|error| Entry::internal(&error))?;
-    let measures = args.measures.iter();
-    Ok(match args.pruning.rest(feature, axis.engine, &hierarchy) {
+    if measures.is_empty() && !pruning.removes(feature, axis.engine) {
+        return Ok((axis, Vec::new()));
+    }
+    let hierarchy = Hierarchy::new(domain, &axis).map_err(|error| Entry::internal(&error))?;
+    let measures = measures.iter();
+    Ok(match pruning.rest(feature, axis.engine, &hierarchy) {
         Some(pruned) => {
             let measured = measures.map(|&m| hierarchy.significance_of(m, &pruned)).collect();
             (pruned.axis, measured)
@@ -178,12 +177,7 @@ pub fn pruned(
     domain: &Domain,
     axis: MedialAxis,
 ) -> Result<MedialAxis, Entry> {
-    if !pruning.removes(feature, axis.engine) {
-        return Ok(axis);
-    }
-    let hierarchy = Hierarchy::new(domain, &axis).map_err(|error| Entry::internal(&error))?;
-    let rest = pruning.rest(feature, axis.engine, &hierarchy).map(|pruned| pruned.axis);
-    Ok(rest.unwrap_or_else(|| axis.clone()))
+    measured(pruning, &[], feature, domain, axis).map(|(axis, _)| axis)
 }
 
 /// The axes of a feature by the engine that is chosen for it, which may be one on cells: those of the image it

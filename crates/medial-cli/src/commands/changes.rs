@@ -43,9 +43,12 @@ pub fn run(
     objects: &Objects,
     other: &Path,
 ) -> Result<Status, Failure> {
-    let after = regions::parted(&args.segmentation, other, &mut run, false, Some(before))?;
+    let mask = args.compare_mask.as_deref();
+    let after = regions::parted(&args.segmentation, other, mask, &mut run, false, Some(before))?;
     check_alike(before, &after)?;
-    let objects_after = timed(&mut run.stages.operations, || after.chosen(&args.choice))?;
+    let objects_after = timed(&mut run.stages.operations, || {
+        after.chosen(&args.choice, args.compare_clicks.as_deref())
+    })?;
     if objects.all().is_empty() && objects_after.all().is_empty() {
         return Err(before.unchosen(Some(&after)));
     }

@@ -1,45 +1,35 @@
-use super::axis::{dual, pruned, traced};
+use super::axis::{dual, measured, traced};
 use super::changes;
 use super::features::Run;
 use super::place::{is_georeferenced, write_beside};
 use super::records::{Found, Plan};
-use super::regions::{self, Parted, color};
+use super::regions::{self, Parted, color, means};
 use super::sink::title;
-use crate::args::{ChosenEngine, Height, ImageArgs, ImageLayer, Pruning, Region, Sides, Target};
+use crate::args::{
+    ChosenEngine, Height, ImageArgs, ImageLayer, Line, Pruning, Region, Sides, Target,
+};
 use crate::failure::{Failure, Status};
+use crate::output::Output;
 use crate::parallel::kept;
 use crate::report::Entry;
 use crate::timings::{Stages, timed};
-use medial::axis::{Engine, Joining, KeypointKind, MedialAxis, Polyline, Side};
-use medial::domain::Domain;
-use medial::engine::{self, DelaunayDual};
+use medial::axis::{Engine, Joining, Side};
+use medial::domain::{self, Domain};
+use medial::engine::{self, DelaunayDual, DualKind};
 use medial::geom::{Point, Rect};
-use medial::raster::Grid;
-use medial_image::{Borders, Object, Objects};
+use medial::ops::Measure;
+use medial::raster::{Grid, Mask, outline};
+use medial_image::{Borders, Labels, Object, Objects};
 use medial_io::record::{Record, Shape, Value};
 use medial_io::svg::{LineStyle, Options, Overlay, OverlayLayer};
-use medial_io::{Crs, Feature, Format, Layer, default_tolerance, png, svg};
+use medial_io::{
+    Crs, Drawing, Feature, Format, Layer, image, line_columns, line_records, png, point_record, svg,
+};
 use std::sync::Arc;
 
-/// Columns of what is written of a region.
-const COLUMNS: &[&str] = &[
-    "layer",
-    "region",
-    "n_regions",
-    "pixels",
-    "area",
-    "color",
-    "mean_1",
-    "mean_2",
-    "mean_3",
-    "length",
-    "radius_min",
-    "radius_max",
-    "radius_start",
-    "radius_end",
-    "kind_start",
-    "kind_end",
-];
+/// Columns of what is written of a region, before those of lines.
+const COLUMNS: &[&str] =
+    &["layer", "region", "n_regions", "pixels", "area", "color", "mean_1", "mean_2", "mean_3"];
 
 /// Formats of what is written.
 pub const FORMATS: &[Format] = &[
@@ -65,22 +55,30 @@ pub fn run(args: &'static ImageArgs) -> Result<Status, Failure> {
     let mut run = Run::new(kept(args.run.common()))?;
     run.knows_metric = false;
     let is_picture = matches!(format, Format::Svg | Format::Png);
-    let parted = regions::parted(&args.segmentation, &args.input, &mut run, is_picture, None)?;
-    let objects = timed(&mut run.stages.operations, || parted.chosen(&args.choice))?;
+    let labels = args.labels.as_deref().map(Output::beside).transpose()?;
+    let segmentation = &args.segmentation;
+    let mask = segmentation.mask.as_deref();
+    let parted = regions::parted(segmentation, &args.input, mask, &mut run, is_picture, None)?;
+    let objects = timed(&mut run.stages.operations, || parted.chosen(&args.choice, None))?;
     if let Some(other) = &args.compare {
         return changes::run(args, run, format, &parted, &objects, other);
     }
     if objects.all().is_empty() {
         return Err(parted.unchosen(None));
     }
-    let Parted { input, crs, are_bands, colours, .. } = parted;
+    let Parted { input, crs, are_bands, n_values, colours, .. } = parted;
     let (grid, objects) = (*objects.grid(), Arc::new(objects));
+    if let Some(output) = labels {
+        timed(&mut run.stages.write, || {
+            output.whole(&labels_of(&objects, crs.as_ref(), input.bytes()))
+        })?;
+    }
     let cell = grid.cell_size();
     let plan = Plan {
         target: &args.target,
         thing: "layers",
         formats: FORMATS,
-        columns: COLUMNS,
+        columns: columns(&args.measures),
         engine: args.engine(cell).engine,
         layers: several(&layers),
     };
@@ -88,16 +86,28 @@ pub fn run(args: &'static ImageArgs) -> Result<Status, Failure> {
     let overlay = Overlay { grid, colours, layers: Vec::new(), is_georeferenced, crs: crs.clone() };
     let borders = timed(&mut run.stages.operations, || borders(&objects, args));
     let has_borders = borders.is_some();
-    let layer = timed(&mut run.stages.operations, || layer(&objects, crs, borders));
+    let layer = timed(&mut run.stages.operations, || {
+        let takes_masks = args.engine(cell).engine.is_some_and(|engine| !engine.is_exact());
+        layer(&objects, crs, takes_masks, borders)
+    });
     let drafter = Drafter {
         engine: args.engine(cell),
         pruning: args.pruning(cell),
         region: Region { side: Sides::Interior, frame: None },
         layers: args.layers(),
-        tolerance: args.tolerance,
-        radius_as_z: args.z == Some(Height::Radius),
+        drawing: Drawing {
+            tolerance: args.tolerance,
+            radius_as_z: args.z == Some(Height::Radius),
+            by: Some(match args.by {
+                Line::Branch => Joining::Branches,
+                Line::Path => Joining::Governors,
+            }),
+            ..Drawing::default()
+        },
         are_bands,
+        n_values,
         has_borders,
+        measures: args.measures.clone(),
         objects,
     };
     let title = title("Regions", &args.input);
@@ -105,8 +115,14 @@ pub fn run(args: &'static ImageArgs) -> Result<Status, Failure> {
     painting.run(&plan, run, &input.name, layer, move |feature, domain, stages, options| {
         let records = drafter.records(feature, domain, stages, options)?;
         Ok(if is_picture {
+            // What a line is drawn through anyway needs no dot.
+            let is_drawn = |(layer, record): &(ImageLayer, Record)| {
+                *layer != ImageLayer::Nodes
+                    || !record.values.contains(&DualKind::Internal.name().into())
+            };
             let drawn = |(layer, record): (ImageLayer, Record)| (layer, lines(record.shape));
-            Found::Part(records.into_iter().map(drawn).collect::<Vec<Drawn>>())
+            let records = records.into_iter().filter(is_drawn);
+            Found::Part(records.map(drawn).collect::<Vec<Drawn>>())
         } else {
             Found::Records(records.into_iter().map(|(_, record)| record).collect())
         })
@@ -194,19 +210,25 @@ pub fn several(layers: &[ImageLayer]) -> Vec<&'static str> {
     if layers.len() > 1 { layers.iter().map(|layer| layer.name()).collect() } else { Vec::new() }
 }
 
-/// A feature for each object: its mask with its outline, or its polygons between these borders.
-fn layer(objects: &Arc<Objects>, crs: Option<Crs>, borders: Option<Borders>) -> Layer<'static> {
+/// A feature for each object: its mask with its outline, its polygons, or those between these borders.
+fn layer(
+    objects: &Arc<Objects>,
+    crs: Option<Crs>,
+    takes_masks: bool,
+    borders: Option<Borders>,
+) -> Layer<'static> {
     let n = objects.all().len();
     let objects = Arc::clone(objects);
     let feature = move |index: usize| {
+        let number = index as u32;
         let mask = match borders {
-            Some(_) => None,
-            None => objects.mask(index as u32).ok().map(Arc::new),
+            None if takes_masks => objects.mask(number).ok().map(Arc::new),
+            _ => None,
         };
-        // Parts that meet at corners only are polygons of their own; that they hang together is for the mask to tell.
         let polygons = match &borders {
-            Some(borders) => objects.polygons_between(index as u32, borders),
-            None => objects.polygons(index as u32),
+            Some(borders) => objects.polygons_between(number, borders),
+            // Parts that meet at corners only are polygons of their own; that they hang together is for the mask to tell.
+            None => objects.polygons(number),
         };
         Feature {
             index,
@@ -226,9 +248,10 @@ struct Drafter {
     pruning: Pruning,
     region: Region,
     layers: Vec<ImageLayer>,
-    tolerance: Option<f64>,
-    radius_as_z: bool,
+    drawing: Drawing,
     are_bands: bool,
+    n_values: usize,
+    measures: Vec<Measure>,
     /// Whether the polygons of objects are other ones than those of their pixels.
     has_borders: bool,
     objects: Arc<Objects>,
@@ -245,7 +268,7 @@ impl Drafter {
     ) -> Result<Vec<(ImageLayer, Record)>, Entry> {
         let layers = &self.layers;
         let has = |layer: ImageLayer| layers.contains(&layer);
-        let graphs = [ImageLayer::Delaunay, ImageLayer::Crust, ImageLayer::Dual];
+        let graphs = [ImageLayer::Delaunay, ImageLayer::Crust, ImageLayer::Dual, ImageLayer::Nodes];
         // Borders of this object alone.
         let moves = self.engine.retract.is_some();
         let needs_graph = graphs.into_iter().any(has) || (moves && has(ImageLayer::Border));
@@ -277,7 +300,12 @@ impl Drafter {
         }
         let axis = match axis {
             Some(axis) => Some(timed(&mut stages.operations, || {
-                pruned(&self.pruning, feature, domain, axis)
+                let is_asked =
+                    !self.measures.is_empty() || self.pruning.removes(feature, axis.engine);
+                let whole = feature.mask.as_deref().filter(|_| is_asked).map(of_outline);
+                let whole = whole.transpose()?;
+                let domain = whole.as_ref().unwrap_or(domain);
+                measured(&self.pruning, &self.measures, feature, domain, axis)
             })?),
             None => None,
         };
@@ -292,11 +320,24 @@ impl Drafter {
         };
         let mut records = Vec::new();
         for &layer in layers {
+            let told = |record: Record| (layer, self.record(feature, layer, record));
             match layer {
                 ImageLayer::Axis => {
-                    let axis = axis.as_ref().map_or_else(Vec::new, |axis| self.branches(axis));
-                    records.extend(axis.into_iter().map(|(measures, shape)| {
-                        (layer, self.record(feature, layer, measures, shape))
+                    let lines = axis.as_ref().map_or_else(Vec::new, |(axis, significance)| {
+                        line_records(axis, significance, self.drawing)
+                    });
+                    records.extend(lines.into_iter().map(told));
+                }
+                ImageLayer::Nodes => {
+                    let nodes = graph.as_ref().map_or_else(Vec::new, DelaunayDual::nodes);
+                    records.extend(nodes.into_iter().map(|node| {
+                        let shape = Shape::Point(node.middle);
+                        told(point_record(
+                            node.radius,
+                            node.kind.name(),
+                            self.measures.len(),
+                            shape,
+                        ))
                     }));
                 }
                 _ => {
@@ -304,8 +345,8 @@ impl Drafter {
                         ImageLayer::Border => Shape::Polygons(border()),
                         _ => edges(layer),
                     };
-                    let nothing = [(); 7].map(|()| Value::None).to_vec();
-                    records.push((layer, self.record(feature, layer, nothing, shape)));
+                    let values = vec![Value::None; line_columns(&self.measures).len()];
+                    records.push(told(Record { values, shape }));
                 }
             }
         }
@@ -313,13 +354,7 @@ impl Drafter {
     }
 
     /// A record with what is known of the object.
-    fn record(
-        &self,
-        feature: &Feature,
-        layer: ImageLayer,
-        measures: Vec<Value>,
-        shape: Shape,
-    ) -> Record {
+    fn record(&self, feature: &Feature, layer: ImageLayer, record: Record) -> Record {
         let Object { regions, whole } = &self.objects.all()[feature.index];
         let cell = self.objects.grid().cell;
         let mut values: Vec<Value> = vec![
@@ -330,55 +365,33 @@ impl Drafter {
             (whole.cells as f64 * (cell[0] * cell[1]).abs()).into(),
             color(whole.mean, self.are_bands),
         ];
-        values.extend(whole.mean.map(|mean| Value::from(f64::from(mean))));
-        values.extend(measures);
-        Record { values, shape }
+        values.extend(means(whole.mean, self.n_values));
+        values.extend(record.values);
+        Record { values, shape: record.shape }
     }
+}
 
-    /// The branches of an axis with their measures, and what was pruned to a point.
-    fn branches(&self, axis: &MedialAxis) -> Vec<(Vec<Value>, Shape)> {
-        let tolerance = self.tolerance.unwrap_or_else(|| default_tolerance(axis));
-        let end = |keypoint: u32| axis.keypoints().at(keypoint);
-        let kind = |kind: KeypointKind| Value::from(kind.name());
-        let branch = |Polyline { path, paths, .. }: Polyline| {
-            let mut points: Vec<(Point, f64)> = Vec::new();
-            let (mut length, mut low, mut high) = (0.0, f64::INFINITY, 0.0_f64);
-            for (number, forwards) in paths {
-                let curve = axis.curve(&axis.paths().at(number));
-                let curve = if forwards { curve } else { curve.reversed() };
-                length += curve.length();
-                (low, high) = (low.min(curve.radius_min()), high.max(curve.radius_max()));
-                let drawn = match self.radius_as_z {
-                    true => curve.polyline_in_space(tolerance),
-                    false => curve.polyline(tolerance),
-                };
-                points.extend(drawn.into_iter().skip(usize::from(!points.is_empty())));
-            }
-            let [from, to] = [path.from, path.to].map(end);
-            let radii = [length, low, high, from.radius, to.radius].map(Value::from);
-            let values = radii.into_iter().chain([from.kind, to.kind].map(kind)).collect();
-            let shape = match self.radius_as_z {
-                true => Shape::LineInSpace(points),
-                false => Shape::Line(points.into_iter().map(|(p, _)| p).collect()),
-            };
-            (values, shape)
-        };
-        let mut records: Vec<_> =
-            axis.polylines(Joining::Branches).into_iter().map(branch).collect();
-        let degrees = axis.degrees();
-        for (keypoint, _) in (0..).zip(&degrees).filter(|&(_, &degree)| degree == 0) {
-            let keypoint = end(keypoint);
-            let radius = keypoint.radius;
-            let radii = [0.0, radius, radius, radius, radius].map(Value::from);
-            let values = radii.into_iter().chain([keypoint.kind; 2].map(kind)).collect();
-            let shape = match self.radius_as_z {
-                true => Shape::PointInSpace(keypoint.position, radius),
-                false => Shape::Point(keypoint.position),
-            };
-            records.push((values, shape));
-        }
-        records
-    }
+/// The domain whose edges the axis of a mask names: its outline, in which parts that meet at corners hang together.
+fn of_outline(mask: &Mask) -> Result<Domain, Entry> {
+    let domain = Domain::from_polygons(&outline(mask), &domain::Options::default());
+    domain.map_err(|error| Entry::internal(&error))
+}
+
+/// The columns of what is written of a region, with those of measures.
+fn columns(measures: &[Measure]) -> &'static [&'static str] {
+    let names = line_columns(measures).into_iter().map(|name| -> &'static str { name.leak() });
+    COLUMNS.iter().copied().chain(names).collect::<Vec<_>>().leak()
+}
+
+/// The number of each pixel's object from 1 on, as an image.
+fn labels_of(objects: &Objects, crs: Option<&Crs>, like: &[u8]) -> Vec<u8> {
+    let number = |&number: &u32| match number {
+        Objects::REST => 0,
+        Labels::NONE => Labels::NONE,
+        number => number + 1,
+    };
+    let numbers: Vec<u32> = objects.numbers().iter().map(number).collect();
+    image::write_labels(objects.grid(), crs, &numbers, Labels::NONE, like)
 }
 
 /// The lines of a graph in a layer.
@@ -468,6 +481,7 @@ fn overlay_layer(layer: ImageLayer) -> OverlayLayer {
         ImageLayer::Delaunay => LineStyle::DELAUNAY,
         ImageLayer::Crust => LineStyle::CRUST,
         ImageLayer::Dual => LineStyle::DUAL,
+        ImageLayer::Nodes => LineStyle::NODES,
         ImageLayer::Axis => LineStyle::AXIS,
         ImageLayer::Change => LineStyle::CHANGE,
         ImageLayer::Gained => LineStyle::GAINED,

@@ -11,6 +11,7 @@ mod features;
 pub mod image;
 pub mod locate;
 pub mod offset;
+mod pixels;
 mod place;
 pub mod reconstruct;
 mod records;

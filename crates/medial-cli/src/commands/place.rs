@@ -4,7 +4,7 @@ use crate::failure::Failure;
 use crate::output::Output;
 use medial::geom::Point;
 use medial::raster::Grid;
-use medial_io::{Crs, png};
+use medial_io::{Crs, image};
 use std::fs;
 use std::path::Path;
 
@@ -37,7 +37,7 @@ pub fn write_beside(picture: Option<&Path>, grid: &Grid, crs: Option<&Crs>) -> R
     let write = |extension: &str, text: &str| {
         Output::beside(&picture.with_extension(extension))?.whole(text.as_bytes())
     };
-    write("pgw", &png::world_file(grid))?;
+    write("pgw", &image::world_file(grid))?;
     match crs.and_then(Crs::first_wkt) {
         Some(wkt) => write("prj", &wkt),
         None => Ok(()),

@@ -1,6 +1,7 @@
 //! Regions of colour images, as all commands on them find and choose them.
 
 use super::features::Run;
+use super::pixels::Pixels;
 use crate::args::{Choice, SegmentMethod, Segmentation};
 use crate::failure::Failure;
 use crate::guard::guarded;
@@ -11,8 +12,9 @@ use medial_image::{
     Action, Analysis, Click, Field, Filter, Labels, Objects, Region, Selection, feature_space, luv,
     mean_shift_with, near_colours, srgb, thresholds, thresholds_of,
 };
+use medial_io::clicks::{self, ClickRow};
 use medial_io::record::Value;
-use medial_io::{Content, Crs, Format, clicks, image};
+use medial_io::{Crs, image};
 use std::num::NonZeroUsize;
 use std::path::Path;
 use std::sync::mpsc::{self, RecvTimeoutError};
@@ -25,6 +27,10 @@ pub struct Parted {
     pub crs: Option<Crs>,
     /// Whether what it has are bands, and no colours.
     pub are_bands: bool,
+    /// How many of the three means say something.
+    pub n_values: usize,
+    /// Whether its regions are those of an image of labels.
+    are_given: bool,
     /// The values of bands that became 0 and 100.
     extents: [[f32; 2]; 3],
     pub labels: Labels,
@@ -40,14 +46,16 @@ const TOLERANCE: f64 = 20.0;
 pub fn parted(
     args: &'static Segmentation,
     path: &Path,
+    mask: Option<&Path>,
     run: &mut Run,
     keeps_colours: bool,
     beside: Option<&Parted>,
 ) -> Result<Parted, Failure> {
     let common = run.common;
     let input = timed(&mut run.stages.read, || Input::read(path))?;
-    let colours = timed(&mut run.stages.read, || colours(args, common.from, path, &input))?;
-    let image::Colours { grid, crs, values, are_bands, warnings } = colours;
+    let Pixels { colours, numbers } =
+        timed(&mut run.stages.read, || Pixels::read(args, common.from, path, &input, mask))?;
+    let image::Colours { grid, crs, values, are_bands, n_bands, warnings } = colours;
     for warning in warnings.iter().filter(|_| !common.quiet) {
         crate::progress::line(&format!("warning: {}: {warning}", input.name));
     }
@@ -67,9 +75,11 @@ pub fn parted(
     })
     .map_err(|error| input.wrong(error))?;
     let extents = beside.map_or(own, |other| other.extents);
-    let field = if are_bands { field.stretched(extents) } else { field };
+    let are_given = numbers.is_some();
+    let field = if are_bands && !are_given { field.stretched(extents) } else { field };
     let colours = match (keeps_colours, are_bands) {
-        (true, true) => field.values().iter().map(|&value| shown(value, true)).collect(),
+        (true, true) if are_given => greys(field.clone().stretched(extents)),
+        (true, true) => greys(field.clone()),
         _ => kept,
     };
     let threads = run.all_threads();
@@ -82,7 +92,7 @@ pub fn parted(
     let steps = progress.steps();
     let found = timed(&mut run.stages.engine, || {
         within(common.limit(), move || {
-            let labels = labels(args, &field, band.as_deref(), threads, &steps);
+            let labels = labels(args, &field, band.as_deref(), numbers, threads, &steps);
             let regions = labels.regions(&field);
             (labels, regions)
         })
@@ -98,7 +108,13 @@ pub fn parted(
     if labels.is_empty() {
         return Err(input.wrong("has no pixel with data; there is nothing to part"));
     }
-    Ok(Parted { input, crs, are_bands, extents, labels, regions, colours })
+    let n_values = if are_bands { n_bands } else { 3 };
+    Ok(Parted { input, crs, are_bands, n_values, are_given, extents, labels, regions, colours })
+}
+
+/// The pixels of bands in colours, of which they have none.
+fn greys(field: Field) -> Vec<[f32; 3]> {
+    field.values().iter().map(|&value| shown(value, true)).collect()
 }
 
 /// What to say of a limit that has all values on one side.
@@ -126,8 +142,8 @@ fn within<T: Send + 'static>(
 }
 
 impl Parted {
-    /// The regions that are chosen, as objects; there may be none.
-    pub fn chosen(&self, choice: &Choice) -> Result<Objects, Failure> {
+    /// The regions that are chosen, as objects; there may be none. A file of clicks may take the place of all others.
+    pub fn chosen(&self, choice: &Choice, instead: Option<&Path>) -> Result<Objects, Failure> {
         let Choice { min_pixels, max_pixels, select_color, select_tolerance, .. } = choice;
         let has_filter = min_pixels.is_some() || max_pixels.is_some() || !select_color.is_empty();
         if self.are_bands && !select_color.is_empty() {
@@ -138,10 +154,16 @@ impl Parted {
         let near = select_tolerance.unwrap_or(TOLERANCE) as f32;
         let pixels = min_pixels.unwrap_or(0)..=max_pixels.unwrap_or(u64::MAX);
         let is_asked = |region: &Region| {
-            pixels.contains(&region.cells)
+            // The number 0 of labels is the ground.
+            let is_ground = self.are_given && region.mean[0] == 0.0;
+            !is_ground
+                && pixels.contains(&region.cells)
                 && (colours.is_empty() || colours.iter().any(|&c| region.distance(c) <= near))
         };
-        let clicks = self.clicks(choice)?;
+        let clicks = match instead {
+            Some(path) => clicks_of(path)?,
+            None => clicks(choice)?,
+        };
         let begins_empty =
             !has_filter && clicks.first().is_some_and(|(_, click)| click.action != Action::Remove);
         let numbered = (0..).zip(&self.regions);
@@ -165,28 +187,35 @@ impl Parted {
             "none of its {n} regions is chosen{beside}; see them with `medial segment`, and choose others"
         ))
     }
+}
 
-    /// All clicks, each with the place where it is said.
-    fn clicks(&self, choice: &Choice) -> Result<Vec<(String, Click)>, Failure> {
-        let mut clicks = Vec::new();
-        for (number, &at) in choice.at.iter().enumerate() {
-            let action = if choice.combine && number > 0 { Action::Combine } else { Action::Add };
-            clicks.push(("--at".to_owned(), Click { action, at }));
-        }
-        let removed = choice.remove.iter();
-        let removed = removed.map(|&at| Click { action: Action::Remove, at });
-        clicks.extend(removed.map(|click| ("--remove".to_owned(), click)));
-        if let Some(path) = &choice.clicks {
-            let file = Input::read(path)?;
-            for row in clicks::read(file.bytes()).map_err(|error| file.wrong(error))? {
-                let place = format!("{}: line {}", file.name, row.line);
-                let action = row.action.parse::<Action>();
-                let action = action.map_err(|error| Failure::file(&place, error))?;
-                clicks.push((place, Click { action, at: row.at }));
-            }
-        }
-        Ok(clicks)
+/// All clicks, each with the place where it is said.
+fn clicks(choice: &Choice) -> Result<Vec<(String, Click)>, Failure> {
+    let mut clicks = Vec::new();
+    for (number, &at) in choice.at.iter().enumerate() {
+        let action = if choice.combine && number > 0 { Action::Combine } else { Action::Add };
+        clicks.push(("--at".to_owned(), Click { action, at }));
     }
+    let removed = choice.remove.iter();
+    let removed = removed.map(|&at| Click { action: Action::Remove, at });
+    clicks.extend(removed.map(|click| ("--remove".to_owned(), click)));
+    if let Some(path) = &choice.clicks {
+        clicks.extend(clicks_of(path)?);
+    }
+    Ok(clicks)
+}
+
+/// Those of a file.
+fn clicks_of(path: &Path) -> Result<Vec<(String, Click)>, Failure> {
+    let file = Input::read(path)?;
+    let rows = clicks::read(file.bytes()).map_err(|error| file.wrong(error))?;
+    let click = |row: ClickRow| {
+        let place = format!("{}: line {}", file.name, row.line);
+        let action = row.action.parse::<Action>();
+        let action = action.map_err(|error| Failure::file(&place, error))?;
+        Ok((place, Click { action, at: row.at }))
+    };
+    rows.into_iter().map(click).collect()
 }
 
 /// The colour in which values are shown, of red, green and blue from 0 to 1: bands have none, theirs is grey.
@@ -194,11 +223,20 @@ pub fn shown(values: [f32; 3], are_bands: bool) -> [f32; 3] {
     if are_bands { [values[0] / 100.0; 3] } else { srgb(values) }
 }
 
+/// The same from 0 to 255.
+pub fn bytes(values: [f32; 3], are_bands: bool) -> [u8; 3] {
+    shown(values, are_bands).map(|v| (255.0 * v.clamp(0.0, 1.0)).round() as u8)
+}
+
 /// That colour as text.
 pub fn color(values: [f32; 3], are_bands: bool) -> Value {
-    let [red, green, blue] =
-        shown(values, are_bands).map(|v| (255.0 * v.clamp(0.0, 1.0)).round() as u8);
+    let [red, green, blue] = bytes(values, are_bands);
     Value::Text(format!("#{red:02x}{green:02x}{blue:02x}"))
+}
+
+/// The means that say something.
+pub fn means(means: [f32; 3], n_values: usize) -> [Value; 3] {
+    [0, 1, 2].map(|k| if k < n_values { Value::from(f64::from(means[k])) } else { Value::None })
 }
 
 fn of_bytes(colour: [u8; 3]) -> [f32; 3] {
@@ -207,7 +245,7 @@ fn of_bytes(colour: [u8; 3]) -> [f32; 3] {
 
 /// Fails if something is said to a method that another one would listen to.
 pub fn check(args: &Segmentation) -> Result<(), Failure> {
-    use SegmentMethod::{Colours, FeatureSpace, MeanShift, Threshold};
+    use SegmentMethod::{Colours, FeatureSpace, Labels, MeanShift, Threshold};
     let said: [(&str, bool, SegmentMethod, &str); 7] = [
         ("--resolution", args.resolution.is_some(), FeatureSpace, "feature_space"),
         ("--seed", args.seed.is_some(), FeatureSpace, "feature_space"),
@@ -233,36 +271,12 @@ pub fn check(args: &Segmentation) -> Result<(), Failure> {
     if args.method == Colours && !args.bands.is_empty() {
         return usage("--color is for colours, not for --bands".to_owned());
     }
+    let of_values =
+        [("--bands", !args.bands.is_empty()), ("--min-region", args.min_region.is_some())];
+    if let Some((option, _)) = of_values.iter().find(|said| said.1 && args.method == Labels) {
+        return usage(format!("{option} is not for --method labels, whose regions are given"));
+    }
     Ok(())
-}
-
-/// The colours or bands of the image.
-fn colours(
-    args: &Segmentation,
-    from: Option<Format>,
-    path: &Path,
-    input: &Input,
-) -> Result<image::Colours, Failure> {
-    let bands: Vec<usize> = args.bands.iter().map(|band| band.get()).collect();
-    let named = from.or_else(|| Format::from_path(path).ok());
-    let format = match named {
-        Some(format) => format,
-        None => match Format::of_content(input.bytes()) {
-            Ok(Content::Polygons(format)) => format,
-            _ => return Err(input.wrong("is no image; png, jpeg and tiff are read")),
-        },
-    };
-    if !matches!(format, Format::Png | Format::Jpeg | Format::Tiff) {
-        let why = format!("is {format}, no image; png, jpeg and tiff are read");
-        return Err(input.wrong(why));
-    }
-    // Decoders may panic, as parsers of fonts may.
-    let read = guarded(|| image::read_colours(format, input.bytes(), &bands));
-    let colours = read.map_err(|panic| input.wrong(panic))?.map_err(|error| input.wrong(error))?;
-    if args.method == SegmentMethod::Colours && colours.are_bands {
-        return Err(input.wrong("has bands that are no colours; name a threshold instead"));
-    }
-    Ok(colours)
 }
 
 /// The regions by the method that is asked for.
@@ -270,6 +284,7 @@ fn labels(
     args: &Segmentation,
     field: &Field,
     band: Option<&[f32]>,
+    numbers: Option<Vec<f64>>,
     threads: NonZeroUsize,
     steps: &Steps,
 ) -> Labels {
@@ -302,6 +317,12 @@ fn labels(
                 args.color.iter().map(|&colour| of_bytes(colour)).collect();
             let distance = args.color_tolerance.unwrap_or(TOLERANCE) as f32;
             near_colours(field, &colours, distance, min_region)
+        }
+        SegmentMethod::Labels => {
+            let mut numbers = numbers.unwrap_or_default();
+            let unknown = numbers.iter_mut().enumerate().filter(|(k, _)| !field.is_known(*k));
+            unknown.for_each(|(_, number)| *number = f64::NAN);
+            Labels::given(*field.grid(), &numbers)
         }
     }
 }

@@ -1,20 +1,32 @@
 use super::features::Run;
 use super::place::{box_ring, is_georeferenced, write_beside};
 use super::records::{Found, POLYGONS, Plan};
-use super::regions::{self, Parted, color, shown};
-use crate::args::SegmentArgs;
+use super::regions::{self, Parted, bytes, color, means, shown};
+use crate::args::{SegmentArgs, SegmentMethod};
 use crate::failure::{Failure, Status};
 use crate::output::Output;
 use crate::parallel::kept;
 use crate::timings::timed;
-use medial_image::{Object, Objects, Selection};
+use medial_image::{Class, Object, Objects, Selection};
+use medial_io::image::{self, PaletteColour};
 use medial_io::record::{self, Record, Shape, Value};
-use medial_io::{Feature, Format, Layer, image};
+use medial_io::{Feature, Format, Layer};
 use std::io::IsTerminal as _;
+use std::path::PathBuf;
 use std::sync::Arc;
 
-const COLUMNS: &[&str] =
-    &["region", "pixels", "area", "n_polygons", "n_holes", "mean_1", "mean_2", "mean_3", "color"];
+const COLUMNS: &[&str] = &[
+    "region",
+    "pixels",
+    "area",
+    "n_polygons",
+    "n_holes",
+    "mean_1",
+    "mean_2",
+    "mean_3",
+    "color",
+    "class",
+];
 
 /// `medial segment`.
 pub fn run(args: &'static SegmentArgs) -> Result<Status, Failure> {
@@ -35,14 +47,27 @@ pub fn run(args: &'static SegmentArgs) -> Result<Status, Failure> {
     if is_picture && file.is_none() && std::io::stdout().is_terminal() {
         return Err(Failure::Usage("a terminal shows no png; name a file with -o".to_owned()));
     }
-    let numbers = args.labels.as_deref().map(|path| Output::create(Some(path))).transpose()?;
-    let parted = regions::parted(&args.segmentation, &args.input, &mut run, false, None)?;
-    let Parted { input, crs, are_bands, labels, regions, .. } = parted;
+    let numbers = args.labels.as_deref().map(Output::beside).transpose()?;
+    let palette = args.palette.as_deref().map(Output::beside).transpose()?;
+    let segmentation = &args.segmentation;
+    let has_classes =
+        !matches!(segmentation.method, SegmentMethod::MeanShift | SegmentMethod::Labels);
+    if palette.is_some() && !has_classes {
+        let why = "--palette is for methods with classes: feature_space, threshold, colours";
+        return Err(Failure::Usage(why.to_owned()));
+    }
+    let mask = segmentation.mask.as_deref();
+    let parted = regions::parted(segmentation, &args.input, mask, &mut run, false, None)?;
+    let Parted { input, crs, are_bands, n_values, labels, regions, .. } = parted;
     let grid = *labels.grid();
     if let Some(output) = numbers {
         let numbers: Vec<u32> = labels.labels().iter().map(|label| label.wrapping_add(1)).collect();
-        let bytes = image::write_labels(grid.columns, grid.rows, &numbers, input.bytes());
+        let bytes = image::write_labels(&grid, crs.as_ref(), &numbers, 0, input.bytes());
         timed(&mut run.stages.write, || output.whole(&bytes))?;
+    }
+    if let Some(output) = palette {
+        let text = palette_text(args, &labels.classes(&regions), are_bands, n_values);
+        timed(&mut run.stages.write, || output.whole(text.as_bytes()))?;
     }
     if is_picture {
         let of = |&label: &u32| {
@@ -63,6 +88,7 @@ pub fn run(args: &'static SegmentArgs) -> Result<Status, Failure> {
     let objects = timed(&mut run.stages.engine, || {
         Arc::new(Objects::new(&labels, &regions, &Selection::of(0..labels.len())))
     });
+    let class_of: Vec<u32> = (0..labels.len()).map(|region| labels.class_of(region)).collect();
     drop((labels, regions));
     let layer = layer(&objects, crs);
     plan.run_on(
@@ -82,8 +108,9 @@ pub fn run(args: &'static SegmentArgs) -> Result<Status, Failure> {
                 polygons.len().into(),
                 (n_rings - polygons.len()).into(),
             ];
-            values.extend(object.whole.mean.map(|mean| Value::from(f64::from(mean))));
+            values.extend(means(object.whole.mean, n_values));
             values.push(color(object.whole.mean, are_bands));
+            values.push(if has_classes { class_of[number as usize].into() } else { Value::None });
             let record = Record { values, shape: Shape::Polygons(polygons) };
             Ok(timed(&mut stages.write, || {
                 let mut bytes = Vec::new();
@@ -93,6 +120,26 @@ pub fn run(args: &'static SegmentArgs) -> Result<Status, Failure> {
         },
         |_, _| Ok(Vec::new()),
     )
+}
+
+/// The palette as its file is to have it.
+fn palette_text(args: &SegmentArgs, classes: &[Class], are_bands: bool, n_means: usize) -> String {
+    let colour = |class: &Class| PaletteColour {
+        class: class.number,
+        colour: bytes(class.whole.mean, are_bands),
+        means: class.whole.mean,
+        n_means,
+        pixels: class.whole.cells,
+        regions: class.regions,
+    };
+    let colours: Vec<PaletteColour> = classes.iter().map(colour).collect();
+    let is_gpl = |path: &PathBuf| path.extension().is_some_and(|e| e.eq_ignore_ascii_case("gpl"));
+    if args.palette.as_ref().is_some_and(is_gpl) {
+        let name = args.input.file_stem().unwrap_or_default().to_string_lossy();
+        image::palette_gpl(&name, &colours)
+    } else {
+        image::palette_table(&colours)
+    }
 }
 
 /// A feature for each object; the box of its pixels stands for its polygons.

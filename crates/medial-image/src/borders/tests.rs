@@ -2,11 +2,11 @@ use super::simplifier::squared_distance;
 use super::*;
 use crate::field::Field;
 use crate::labels::Labels;
-use crate::selection::Selection;
-use medial::domain::{Domain, Options};
+use crate::selection::{Action, Click, Selection};
+use medial::domain::{Corner as Turn, Domain, Edge, Options};
 use medial::geom::Point;
 use medial::raster::outline;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// All regions of an image of numbers.
 fn objects(columns: u32, class: &[u32]) -> Objects {
@@ -201,4 +201,45 @@ fn smoothing_makes_a_slope_of_steps_and_leaves_what_is_straight() {
     for corner in [Point::new(4.0, 0.0), Point::new(30.0, 0.0), Point::new(30.0, -30.0)] {
         assert!(between[0][0].contains(&corner), "{corner:?}");
     }
+}
+
+#[test]
+fn an_object_goes_on_through_corners_between_angles_less_than_half_a_turn() {
+    let (columns, rows) = (60, 40);
+    let mut n_corners = 0;
+    for seed in 0..4_u32 {
+        let spots = |k: u32| (k ^ seed).wrapping_mul(0x9e37_79b9).rotate_left(k % 7) >> 30 > 1;
+        let class: Vec<u32> = (0..columns * rows).map(|k| u32::from(spots(k))).collect();
+        let grid = Grid::of_image(columns, rows);
+        let labels = Labels::connected(grid, &class, |_, _| true);
+        let field = Field::new(grid, class.iter().map(|_| [0.0; 3])).unwrap();
+        // All spots are one object.
+        let mut chosen = Selection::of([]);
+        for k in (0..columns * rows).filter(|&k| class[k as usize] == 1) {
+            let at = grid.place(f64::from(k % columns) + 0.5, f64::from(k / columns) + 0.5);
+            let click = Click { action: Action::Combine, at };
+            let click = if chosen.objects().is_empty() {
+                Click { action: Action::Add, ..click }
+            } else {
+                click
+            };
+            // What is chosen already is told.
+            let _ = chosen.click(&labels, click);
+        }
+        let objects = Objects::new(&labels, &labels.regions(&field), &chosen);
+        assert_eq!(objects.all().len(), 1);
+        for tolerance in [0.75, 1.5, 9.0] {
+            let polygons = objects.polygons_between(0, &objects.borders(tolerance));
+            // The interior lies to the left of walks, also where an outer ring and its hole meet.
+            let domain = Domain::from_polygons(&polygons, &Options::default()).unwrap();
+            let place = |edge: &Edge| (edge.start.x as i32, edge.start.y as i32);
+            let mut times: BTreeMap<(i32, i32), u32> = BTreeMap::new();
+            domain.edges().iter().for_each(|edge| *times.entry(place(edge)).or_default() += 1);
+            for edge in domain.edges().iter().filter(|edge| times[&place(edge)] > 1) {
+                n_corners += 1;
+                assert_eq!(edge.corner, Turn::Convex, "{tolerance}: {edge:?}");
+            }
+        }
+    }
+    assert!(n_corners > 1000, "{n_corners}");
 }

@@ -10,14 +10,18 @@
 //! Rows are decoded one after the other and kept as bits, so a large image takes little more memory than its
 //! file and its mask. An image without a threshold is decoded twice if it has many pixels.
 //!
-//! Coordinates are those of the georeference. Without one they are pixels from the upper left
+//! Coordinates are those of the georeference, in the image or in a [world file](WorldFile) beside it. Without one they are pixels from the upper left
 //! corner, x to the right and y upwards, so that y is the negative of rows, as with drawings.
 
 mod jpeg;
+mod palette;
 mod png;
 mod tiff;
+mod world;
 mod write;
 
+pub use palette::{PaletteColour, palette_gpl, palette_table};
+pub use world::{WorldFile, world_file};
 pub use write::{write_colours, write_labels, write_png};
 
 use crate::{Crs, Error, Feature, Format, Layer, ReadOptions};
@@ -69,13 +73,16 @@ struct Header {
 }
 
 impl Header {
-    /// A mask with no cell in it where the image lies, and the reference system of that place.
-    fn placed(&self) -> Result<(Mask, Option<Crs>), Error> {
+    /// A mask with no cell in it where the image, or else a file beside it, says that it lies, and the reference system of
+    /// that place.
+    fn placed(&self, world: &WorldFile) -> Result<(Mask, Option<Crs>), Error> {
         let Self { columns, rows, .. } = *self;
-        let (grid, crs) = match &self.place {
-            Some(Place { origin, cell, crs }) => {
-                (Grid { origin: *origin, cell: *cell, columns, rows }, crs.clone())
-            }
+        let place = match &self.place {
+            Some(place) => Some(place.clone()),
+            None => world.place()?,
+        };
+        let (grid, crs) = match place {
+            Some(Place { origin, cell, crs }) => (Grid { origin, cell, columns, rows }, crs),
             None => (Grid::of_image(columns, rows), None),
         };
         let mask = Mask::empty(grid).map_err(|error| Error::File { why: error.to_string() })?;
@@ -187,7 +194,7 @@ pub fn read_mask(
 ) -> Result<(Mask, Option<Crs>), Error> {
     /// Values of so many pixels at most are kept until the threshold is known.
     const KEPT: u64 = 1 << 24;
-    let (mut mask, crs) = open(format, bytes)?.header().placed()?;
+    let (mut mask, crs) = open(format, bytes)?.header().placed(&options.world)?;
     let grid = *mask.grid();
     let Grid { columns, rows, .. } = grid;
     let mut fill = |first: u32, values: &Values, threshold: f64| {
@@ -255,6 +262,8 @@ pub struct Colours {
     pub values: Vec<[f32; 3]>,
     /// Whether they are bands.
     pub are_bands: bool,
+    /// How many of the three there are; the others are 0.
+    pub n_bands: usize,
     /// What the image says that is not used, or what its values make doubtful.
     pub warnings: Vec<String>,
 }
@@ -264,7 +273,12 @@ pub struct Colours {
 ///
 /// # Errors
 /// If the bytes are no such image, are damaged, the image is too large or has no such band.
-pub fn read_colours(format: Format, bytes: &[u8], bands: &[usize]) -> Result<Colours, Error> {
+pub fn read_colours(
+    format: Format,
+    bytes: &[u8],
+    bands: &[usize],
+    world: &WorldFile,
+) -> Result<Colours, Error> {
     let image = open(format, bytes)?;
     let &Header { columns, rows, n_bands, alpha, is_colour, is_wide, .. } = image.header();
     let mut warnings = image.header().warnings.clone();
@@ -284,7 +298,7 @@ pub fn read_colours(format: Format, bytes: &[u8], bands: &[usize]) -> Result<Col
     };
     let are_bands = !bands.is_empty() || !is_colour;
     // Labels are masks in the end.
-    let (mask, crs) = image.header().placed()?;
+    let (mask, crs) = image.header().placed(world)?;
     let grid = *mask.grid();
     let mut values = Vec::new();
     let wanted = if are_bands { Wanted::Bands(&chosen) } else { Wanted::Colour };
@@ -300,7 +314,57 @@ pub fn read_colours(format: Format, bytes: &[u8], bands: &[usize]) -> Result<Col
     if is_wide && !are_bands {
         warnings.extend(darkness(&values, n_bands));
     }
-    Ok(Colours { grid, crs, values, are_bands, warnings })
+    let n_bands = if are_bands { chosen.len() } else { 3 };
+    Ok(Colours { grid, crs, values, are_bands, n_bands, warnings })
+}
+
+/// An image of one number a pixel, as of labels.
+#[derive(Clone, Debug)]
+pub struct Numbers {
+    /// Where the pixels lie.
+    pub grid: Grid,
+    /// The coordinate reference system that the image names.
+    pub crs: Option<Crs>,
+    /// Row by row, the numbers of the only band, or of a colour that of its three bytes; not numbers where there is no
+    /// data or the image is transparent.
+    pub values: Vec<f64>,
+    /// What the image says that is not used.
+    pub warnings: Vec<String>,
+}
+
+/// The numbers of an image of labels: a grey image or a band gives its values as they are, another one a number for each
+/// colour.
+///
+/// # Errors
+/// As [`read_mask`], and if the image has several bands that are no colours.
+pub fn read_numbers(format: Format, bytes: &[u8], world: &WorldFile) -> Result<Numbers, Error> {
+    let image = open(format, bytes)?;
+    let Header { columns, rows, n_bands, is_colour, warnings, .. } = image.header().clone();
+    if n_bands > 1 && !is_colour {
+        let why =
+            format!("the image has {n_bands} bands; labels need an image of one, or of colours");
+        return Err(Error::File { why });
+    }
+    let (mask, crs) = image.header().placed(world)?;
+    let grid = *mask.grid();
+    let mut values: Vec<f64> = Vec::new();
+    let wanted = if n_bands > 1 { Wanted::Colour } else { Wanted::Value };
+    image.decode(wanted, &mut |_, rows| match rows {
+        Values::Bytes(rows) => values.extend(rows.into_iter().map(f64::from)),
+        Values::Words(rows) => values.extend(rows.into_iter().map(f64::from)),
+        Values::Numbers(rows) => values.extend(rows.into_iter().map(f64::from)),
+        Values::Doubles(rows) => values.extend(rows),
+        Values::Triples(rows) => values.extend(rows.into_iter().map(|colour| {
+            // Not a number goes through all of this.
+            let [red, green, blue] = colour.map(|value| (255.0 * f64::from(value)).round());
+            (red * 256.0 + green) * 256.0 + blue
+        })),
+    })?;
+    if values.len() as u64 != grid.n_cells() {
+        let why = format!("the image has {} values for {columns} by {rows} pixels", values.len());
+        return Err(Error::File { why });
+    }
+    Ok(Numbers { grid, crs, values, warnings })
 }
 
 /// What to do about colours of 16 bits that are all nearly black, as 10 or 12 bits are that were not stretched.

@@ -1,8 +1,9 @@
 //! Masks, colours and labels as images.
 
-use super::tiff::{Georeference, georeference};
+use super::tiff::{Georeference, NO_DATA, georeference};
+use crate::Crs;
 use ::tiff::encoder::{Compression as TiffCompression, TiffEncoder, colortype};
-use medial::raster::Mask;
+use medial::raster::{Grid, Mask};
 use png::{BitDepth, ColorType, Compression, DeflateCompression, Encoder, Filter};
 use std::io::Cursor;
 
@@ -82,20 +83,32 @@ pub fn write_colours(columns: u32, rows: u32, colours: &[[f32; 3]]) -> Vec<u8> {
     bytes
 }
 
-/// Numbers, row by row, as a TIFF image of 32 bits a pixel, which lies where another image of these pixels says
-/// that it does: `like` is its file, of any format; an empty one says nothing.
+/// Numbers of pixels, row by row, as a TIFF image of 32 bits a pixel, with one that stands for no data. It lies where the
+/// grid does: with all that another GeoTIFF of these pixels says, whose file is `like`, else with the code of the reference
+/// system, if it has one.
 ///
 /// # Panics
 /// If there are not so many, or none.
 #[must_use]
-pub fn write_labels(columns: u32, rows: u32, labels: &[u32], like: &[u8]) -> Vec<u8> {
-    assert_eq!(labels.len() as u64, u64::from(columns) * u64::from(rows), "a label for each pixel");
+pub fn write_labels(
+    grid: &Grid,
+    crs: Option<&Crs>,
+    labels: &[u32],
+    no_data: u32,
+    like: &[u8],
+) -> Vec<u8> {
+    let Grid { columns, rows, .. } = *grid;
+    assert_eq!(labels.len() as u64, grid.n_cells(), "a label for each pixel");
     let mut bytes = Cursor::new(Vec::new());
     // Writing to memory does not fail.
     let _ = TiffEncoder::new(&mut bytes).and_then(|encoder| {
         let mut encoder = encoder.with_compression(TiffCompression::Lzw);
         let mut image = encoder.new_image::<colortype::Gray32>(columns, rows)?;
-        let Georeference { doubles, keys, text } = georeference(like);
+        let told = georeference(like);
+        let is_placed = *grid != Grid::of_image(columns, rows);
+        let of_grid = || Georeference::of(grid, crs);
+        let Georeference { doubles, keys, text } =
+            if told.doubles.is_empty() && is_placed { of_grid() } else { told };
         for (tag, numbers) in &doubles {
             image.encoder().write_tag(*tag, &numbers[..])?;
         }
@@ -105,6 +118,7 @@ pub fn write_labels(columns: u32, rows: u32, labels: &[u32], like: &[u8]) -> Vec
         if let Some((tag, text)) = &text {
             image.encoder().write_tag(*tag, text.trim_end_matches('\0'))?;
         }
+        image.encoder().write_tag(NO_DATA, no_data.to_string().as_str())?;
         image.write_data(labels)
     });
     bytes.into_inner()

@@ -60,6 +60,8 @@ impl Sweep<'_, '_> {
                 self.segments[edge as usize].cuts += 1;
                 self.found.cuts.push((edge, point));
                 cut.push(edge);
+            } else {
+                self.found.touched.push((edge, p));
             }
         }
         let leaving = self.order_leaving(p, below, through, starting)?;

@@ -33,6 +33,8 @@ pub(super) struct Piece {
 pub(super) struct Arrangement {
     /// Edges touched in their inside, with the corners there, in order along each edge.
     pub(super) cuts: Vec<(u32, Point)>,
+    /// Edges touched in their inside by corners of other polygons alone, which do not cut them.
+    pub(super) touched: Vec<(u32, Point)>,
     /// Pieces that are run through both ways.
     pub(super) removed: Vec<Piece>,
     /// Which piece follows which one where that is not the next one of the ring.

@@ -13,20 +13,18 @@ impl Domain {
     pub(crate) fn touched_edges(&self) -> Vec<(u32, Point)> {
         let walks = self.walks();
         let is_one = walks.windows(2).all(|pair| pair[0].polygon == pair[1].polygon);
-        let mut rings = Rings::of_walks(self);
+        let rings = Rings::of_walks(self);
         if is_one || apart(&rings).is_some() {
             return Vec::new();
         }
-        // Interiors of different polygons have nothing in common, so all are one that touches itself.
-        rings.rings.iter_mut().for_each(|ring| ring.polygon = 0);
-        let mut touched =
-            sweep(&rings, Purpose::Validate).map_or_else(|_| Vec::new(), |found| found.cuts);
+        // That walks fit one another is known.
+        let found = sweep(&rings, Purpose::Validate).unwrap_or_default();
+        let mut touched = found.touched;
         touched.sort_by(|&(a, p), &(b, q)| {
             let is_forward = self.edge(a).start.lexicographic(self.end(a)).is_lt();
             let along = p.lexicographic(q);
             a.cmp(&b).then(if is_forward { along } else { along.reverse() })
         });
-        touched.dedup();
         touched
     }
 }

@@ -13,7 +13,7 @@ use tiff::tags::Tag;
 use tiff::{ColorType, TiffError};
 
 /// The tag of GDAL for the value of no data.
-const NO_DATA: Tag = Tag::Unknown(42113);
+pub(super) const NO_DATA: Tag = Tag::Unknown(42113);
 
 /// What samples are [TIFF 6.0, tag 262]: values from black on, colours, numbers of a palette, inks, or a
 /// brightness and two differences.

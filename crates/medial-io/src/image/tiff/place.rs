@@ -4,6 +4,7 @@ use super::Source;
 use crate::image::Place;
 use crate::{Crs, Error};
 use medial::geom::Point;
+use medial::raster::Grid;
 use std::io::Cursor;
 use tiff::decoder::Decoder;
 use tiff::tags::Tag;
@@ -30,6 +31,38 @@ pub(in crate::image) struct Georeference {
     pub(in crate::image) doubles: Vec<(Tag, Vec<f64>)>,
     pub(in crate::image) keys: Option<(Tag, Vec<u16>)>,
     pub(in crate::image) text: Option<(Tag, String)>,
+}
+
+impl Georeference {
+    /// The tags that say where a grid lies; of its reference system the code, if it has one.
+    pub(in crate::image) fn of(grid: &Grid, crs: Option<&Crs>) -> Self {
+        const MODEL_KEY: u16 = 1024;
+        const PROJECTED: u16 = 1;
+        const GEOGRAPHIC: u16 = 2;
+        const AREA: u16 = 1;
+        let ([width, height], Point { x, y }) = (grid.cell, grid.origin);
+        let doubles = if width > 0.0 && height < 0.0 {
+            vec![
+                (PIXEL_SCALE, vec![width, -height, 0.0]),
+                (TIE_POINTS, vec![0.0, 0.0, 0.0, x, y, 0.0]),
+            ]
+        } else {
+            let rows =
+                [[width, 0.0, 0.0, x], [0.0, height, 0.0, y], [0.0; 4], [0.0, 0.0, 0.0, 1.0]];
+            vec![(TRANSFORMATION, rows.concat())]
+        };
+        let code = crs.and_then(|crs| Some((crs, u16::try_from(crs.epsg_code()?).ok()?)));
+        let keys = code.map(|(crs, code)| {
+            let (model, key) = match crs.is_geographic() {
+                true => (GEOGRAPHIC, GEOGRAPHIC_KEY),
+                false => (PROJECTED, PROJECTED_KEY),
+            };
+            let entries = [[MODEL_KEY, 0, 1, model], [RASTER_KEY, 0, 1, AREA], [key, 0, 1, code]];
+            let head = [1, 1, 0, entries.len() as u16];
+            (GEO_KEYS, [head].iter().chain(&entries).copied().flatten().collect())
+        });
+        Self { doubles, keys, text: None }
+    }
 }
 
 /// What a file says of its place, if it is a TIFF.

@@ -21,6 +21,19 @@ pub enum DualKind {
     RamificationII,
 }
 
+impl DualKind {
+    /// Its name in files.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Dangling => "dangling",
+            Self::Internal => "internal",
+            Self::RamificationI => "ramification_1",
+            Self::RamificationII => "ramification_2",
+        }
+    }
+}
+
 /// An edge of the dual graph.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct DualEdge {

@@ -19,7 +19,7 @@ pub(super) struct Samples {
     pub elements: Vec<[u32; 2]>,
     pub rings: Vec<Range<u32>>,
     /// Those within an edge where a corner of another polygon is.
-    touched: Vec<u32>,
+    pub touched: Vec<u32>,
 }
 
 impl Samples {

@@ -4,7 +4,7 @@ use std::cell::{Cell, OnceCell};
 use std::ops::Range;
 
 use super::{Hierarchy, Measure, Step};
-use crate::axis::{Curve, bisected, crossing};
+use crate::axis::{Accuracy, Curve, bisected, crossing};
 use crate::domain::{Domain, Site};
 use crate::geom::{Point, Rect, Visitor};
 
@@ -16,6 +16,8 @@ pub(in crate::ops) struct Limb<'h> {
     right: Site,
     /// The first corner of the boundary behind.
     first: u32,
+    /// Whether there is any boundary behind.
+    has_behind: bool,
     /// The disks at the start and at the end.
     disks: [(Point, f64); 2],
     /// Made when something between the two is asked for.
@@ -37,14 +39,15 @@ const FEW: u32 = 16;
 impl Hierarchy<'_> {
     /// The path as the fire runs through it from one end, with what is known there.
     pub(in crate::ops) fn limb(&self, step: &Step, reach: f64, far: (f64, u32)) -> Limb<'_> {
-        let (left, first) = self.governors[step.left as usize];
-        let (right, _) = self.governors[step.right as usize];
+        let (sides, has_behind) = self.sides(step);
+        let [(left, first), (right, _)] = sides;
         Limb {
             hierarchy: self,
             step: *step,
             left,
             right,
             first,
+            has_behind,
             disks: [self.disk(step.from), self.disk(step.to)],
             curve: OnceCell::new(),
             reach,
@@ -63,9 +66,36 @@ impl Hierarchy<'_> {
         from: Point,
         known: u32,
     ) -> (f64, u32) {
-        let first = self.governors[step.left as usize].1;
-        let last = self.governors[step.right as usize].0.index();
-        self.farthest((first, last), from, known)
+        let ([(_, first), (right, _)], has_behind) = self.sides(step);
+        if !has_behind {
+            return (0.0, known);
+        }
+        self.farthest((first, right.index()), from, known)
+    }
+
+    /// The elements on both sides of a path as it burns, each with the first corner behind it, so that the boundary behind
+    /// the path runs from the first one on to the second one; and whether there is any.
+    #[inline]
+    fn sides(&self, step: &Step) -> ([(Site, u32); 2], bool) {
+        let sides = [step.left, step.right].map(|site| self.governors[site as usize]);
+        match self.axis.accuracy {
+            Accuracy::Exact => (sides, true),
+            Accuracy::Sampled(_) => self.sampled_sides(sides),
+        }
+    }
+
+    /// The same on an axis from samples, on which the sides of a short path may be those of another direction: the boundary
+    /// behind is the shorter way between both, and none if they are one element, or on two walks.
+    fn sampled_sides(&self, sides: [(Site, u32); 2]) -> ([(Site, u32); 2], bool) {
+        let edges = self.ground.domain().edges();
+        let [left, right] = sides.map(|(site, _)| site.index());
+        let walk = |edge: u32| edges[edge as usize].walk;
+        if left == right || walk(left) != walk(right) {
+            return (sides, false);
+        }
+        let [on, back] = [self.length_between(left, right), self.length_between(right, left)];
+        let [left, right] = sides;
+        (if on <= back { [left, right] } else { [right, left] }, true)
     }
 
     /// The same for the corners from one to another one, along their walk.
@@ -350,6 +380,9 @@ impl Limb<'_> {
 
     /// The length of the boundary behind, between the footpoints.
     fn boundary(&self, centre: Point) -> f64 {
+        if !self.has_behind {
+            return self.chord(centre);
+        }
         let (first, last) = self.corners();
         let domain = self.hierarchy.ground.domain();
         let rest = |site: Site| {
@@ -370,6 +403,9 @@ impl Limb<'_> {
     /// The distance of the farthest corner behind.
     #[inline]
     fn farthest(&self, centre: Point) -> f64 {
+        if !self.has_behind {
+            return 0.0;
+        }
         if self.far_from.get() != Some(centre) {
             let known = self.far.get().1;
             self.far.set(self.hierarchy.farthest(self.corners(), centre, known));
