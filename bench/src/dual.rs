@@ -6,7 +6,7 @@ use cpu_time::ThreadTime;
 use medial::axis::MedialAxis;
 use medial::check::difference;
 use medial::domain::{Domain, Options};
-use medial::engine::{self, DelaunayDual, DualPruning, path_tracing};
+use medial::engine::{self, DelaunayDual, DualPruning, crust, path_tracing, two_step_crust};
 use medial::geom::Point;
 use medial::raster::{Mask, outline, topology};
 
@@ -40,9 +40,11 @@ pub fn bitmap(file: &str) -> Result<(), Error> {
     let axis = dual.axis(DualPruning::Chord(RESIDUAL))?;
     let sampling = dual.sampling();
     let n = sampling.n_samples.max(1) as f64;
+    let [one, two] = crusts(&dual);
     println!(
         "{{\"samples\": {}, \"missing\": {}, \"outside_crust\": {}, \"false_crust\": {}, \"sparse\": {}, \
-         \"graph_ns\": {:.1}, \"axis_ns\": {:.1}, \"broken\": {}, \"ends\": {}}}",
+         \"graph_ns\": {:.1}, \"axis_ns\": {:.1}, \"broken\": {}, \"ends\": {}, \"one_step_ns\": {:.1}, \
+         \"two_step_ns\": {:.1}, \"two_step_missing\": {}, \"two_step_false\": {}}}",
         sampling.n_samples,
         sampling.n_missing,
         sampling.n_outside_crust,
@@ -52,8 +54,44 @@ pub fn bitmap(file: &str) -> Result<(), Error> {
         median(&mut axes) / n,
         components(&axis).abs_diff(topology(&mask).components as usize),
         axis.degrees().iter().filter(|&&degree| degree == 1).count(),
+        one.nanoseconds / n,
+        two.nanoseconds / n,
+        two.missing,
+        two.spurious,
     );
     Ok(())
+}
+
+/// How a crust fares.
+struct Crust {
+    nanoseconds: f64,
+    /// Pairs of neighbours that are not in it.
+    missing: usize,
+    /// Edges of it between others.
+    spurious: usize,
+}
+
+/// The crusts of one step and of two, from the samples alone.
+fn crusts(dual: &DelaunayDual<'_>) -> [Crust; 2] {
+    let rings = dual.samples();
+    let mut pairs: Vec<[u32; 2]> = Vec::new();
+    let mut first = 0;
+    for ring in &rings {
+        let n = ring.len() as u32;
+        pairs.extend((0..n).map(|k| [first + k, first + (k + 1) % n]));
+        first += n;
+    }
+    pairs.iter_mut().for_each(|pair| pair.sort_unstable());
+    pairs.sort_unstable();
+    let points = rings.concat();
+    let kinds: [fn(&[Point]) -> Option<Vec<[u32; 2]>>; 2] = [crust, two_step_crust];
+    kinds.map(|found| {
+        let start = ThreadTime::now();
+        let edges = found(&points).unwrap_or_default();
+        let nanoseconds = start.elapsed().as_nanos() as f64;
+        let shared = pairs.iter().filter(|pair| edges.binary_search(pair).is_ok()).count();
+        Crust { nanoseconds, missing: pairs.len() - shared, spurious: edges.len() - shared }
+    })
 }
 
 fn components(axis: &MedialAxis) -> usize {

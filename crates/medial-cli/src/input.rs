@@ -2,6 +2,7 @@ use crate::failure::{Failure, plain};
 use crate::guard::guarded;
 use crate::output::reads;
 use medial_io::axis_document::{self, AxisDocument};
+use medial_io::image::WorldFile;
 use medial_io::{Content, Crs, Error, Format, Layer, ReadOptions, maxis, svg};
 use std::cell::RefCell;
 use std::fs::{self, File};
@@ -160,6 +161,9 @@ impl Opened {
         if options.text.is_some() && format != Format::Ttf {
             let why = format!("--text is for fonts; the input is {format}");
             return Err(Failure::Usage(why));
+        }
+        if matches!(format, Format::Png | Format::Tiff | Format::Jpeg) {
+            options.world = WorldFile::of(path).map_err(|error| Failure::file(&name, error))?;
         }
         let content = if format.is_streamed() {
             let source: Source = Box::new(Cursor::new(bytes).chain(source));

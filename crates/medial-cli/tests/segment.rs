@@ -100,6 +100,13 @@ fn wrong_words_and_files_are_told() {
         (&["--method", "colours"], "needs --color"),
         (&["--method", "colours", "--color", "red"], "hexadecimal"),
         (&["--to", "svg"], "regions are written as"),
+        (&["--method", "labels", "--min-region", "3"], "--min-region is not for --method labels"),
+        (
+            &["--method", "mean_shift", "--palette", "p.csv"],
+            "--palette is for methods with classes",
+        ),
+        (&["--no-data", "blue"], "--no-data blue is no colour"),
+        (&["--bands", "1", "--no-data", "blue"], "--no-data blue is no number"),
     ] {
         let run = medial(&[&["segment", picture], words].concat());
         assert_eq!(run.status, Some(2), "{words:?}: {}", run.errors);
@@ -144,4 +151,106 @@ fn values_of_sixteen_bits_that_are_nearly_black_are_told() {
     let run = medial(&[&words[..], &["--quiet"]].concat());
     assert_eq!(run.status, Some(0), "{}", run.errors);
     assert!(!run.errors.contains("warning"), "{}", run.errors);
+}
+
+/// The properties of regions by name.
+fn told(words: &[&str], name: &str) -> Vec<Value> {
+    let run = medial(&[&["segment"][..], words].concat());
+    assert_eq!(run.status, Some(0), "{words:?}: {}", run.errors);
+    features(run.text()).iter().map(|f| f["properties"][name].clone()).collect()
+}
+
+#[test]
+fn the_palette_has_the_classes_of_regions() {
+    let folder = tempfile::tempdir().unwrap();
+    let picture = picture(folder.path());
+    let picture = picture.to_str().unwrap();
+    let [table, gimp] = ["palette.csv", "palette.gpl"]
+        .map(|name| folder.path().join(name).to_str().unwrap().to_owned());
+    let colours = ["--method", "colours", "--color", "c81e1e,1ea028"];
+    let words = [&[picture], &colours[..], &["--palette", &table]].concat();
+    // The ground, on both sides of the bar, is near to none.
+    assert_eq!(told(&words, "class"), [2, 0, 1, 2]);
+    let text = fs::read_to_string(&table).unwrap();
+    let rows: Vec<Vec<&str>> = text.lines().map(|line| line.split(',').collect()).collect();
+    assert_eq!(rows[0], ["class", "color", "mean_1", "mean_2", "mean_3", "pixels", "regions"]);
+    let row = |k: usize| (rows[k][0], rows[k][1], rows[k][5], rows[k][6]);
+    assert_eq!(row(1), ("0", "#c81e1e", "197", "1"));
+    assert_eq!(row(2), ("1", "#1ea028", "117", "1"));
+    assert_eq!(row(3), ("2", "#1e28b4", "856", "2"));
+    let words = [picture, "--min-region", "5", "--palette", &gimp];
+    let classes = told(&words, "class");
+    assert_eq!(classes[0], classes[3], "the ground above the bar and below it");
+    let text = fs::read_to_string(&gimp).unwrap();
+    assert!(text.starts_with("GIMP Palette\nName: picture\n"), "{text}");
+    assert_eq!(text.lines().filter(|line| line.contains("\tclass ")).count(), 3, "{text}");
+    assert!(text.contains("200  30  30\t"), "{text}");
+    assert_eq!(
+        told(&[picture, "--method", "mean_shift", "--spatial", "3"], "class"),
+        [(); 4].map(|()| Value::Null)
+    );
+}
+
+#[test]
+fn labels_are_regions_connected_or_not() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("labels.png");
+    let mut encoder = png::Encoder::new(fs::File::create(&path).unwrap(), 5, 2);
+    encoder.set_color(png::ColorType::Grayscale);
+    encoder.set_depth(png::BitDepth::Eight);
+    let samples = [7, 7, 0, 7, 255, 0, 0, 0, 3, 3];
+    encoder.write_header().unwrap().write_image_data(&samples).unwrap();
+    let labels = [path.to_str().unwrap(), "--method", "labels"];
+    assert_eq!(told(&labels, "mean_1"), [0.0, 3.0, 7.0, 255.0]);
+    assert_eq!(told(&labels, "mean_2"), [(); 4].map(|()| Value::Null));
+    assert_eq!(told(&labels, "pixels"), [4, 2, 3, 1]);
+    assert_eq!(told(&labels, "n_polygons"), [1, 1, 2, 1]);
+    let known = [&labels[..], &["--no-data", "0"]].concat();
+    assert_eq!(told(&known, "pixels"), [2, 3, 1]);
+    // What was written is read again; each of four colours is one region, ground on both sides of the bar.
+    let picture = picture(folder.path());
+    let picture = picture.to_str().unwrap();
+    let kept = folder.path().join("kept.tiff").to_str().unwrap().to_owned();
+    let pixels = told(&[picture, "--min-region", "5", "--labels", &kept], "pixels");
+    assert_eq!(told(&[&kept, "--method", "labels"], "pixels"), pixels);
+    assert_eq!(told(&[picture, "--method", "labels"], "pixels"), [856, 117, 197]);
+    // The ground is chosen by a click alone.
+    let words = ["--method", "labels", "--layers", "border", "--to", "csv"];
+    let run = medial(&[&["image", path.to_str().unwrap()], &words[..]].concat());
+    assert_eq!((run.status, run.text().lines().count()), (Some(0), 4), "{}", run.errors);
+    let run =
+        medial(&[&["image", path.to_str().unwrap(), "--at", "2.5,-0.5"], &words[..]].concat());
+    assert_eq!((run.status, run.text().lines().count()), (Some(0), 2), "{}", run.errors);
+}
+
+#[test]
+fn masks_and_values_leave_pixels_out() {
+    let folder = tempfile::tempdir().unwrap();
+    let picture = picture(folder.path());
+    let picture = picture.to_str().unwrap();
+    let mask = folder.path().join("mask.png");
+    let write = |columns: u32, is_in: &dyn Fn(u32) -> bool| {
+        let mut encoder = png::Encoder::new(fs::File::create(&mask).unwrap(), columns, 30);
+        encoder.set_color(png::ColorType::Grayscale);
+        encoder.set_depth(png::BitDepth::Eight);
+        let samples: Vec<u8> = (0..columns * 30).map(|k| u8::from(is_in(k))).collect();
+        encoder.write_header().unwrap().write_image_data(&samples).unwrap();
+    };
+    // Without the lower part.
+    write(40, &|k| k / 40 < 24);
+    let words = [picture, "--min-region", "5", "--mask", mask.to_str().unwrap()];
+    assert_eq!(told(&words, "pixels"), [39 * 24 - 197, 197]);
+    write(39, &|_| true);
+    let run = medial(&[&["segment"], &words[..]].concat());
+    assert_eq!((run.status, run.text()), (Some(1), ""));
+    assert!(run.errors.contains("mask.png: has 39 by 30 pixels, "), "{}", run.errors);
+    write(40, &|_| false);
+    let run = medial(&[&["segment"], &words[..]].concat());
+    assert_eq!(run.status, Some(1));
+    assert!(run.errors.contains("has no pixel with data"), "{}", run.errors);
+    // Without the ground.
+    let words = [picture, "--min-region", "5", "--no-data", "1e28b4"];
+    assert_eq!(told(&words, "pixels"), [197, 117]);
+    let words = [picture, "--bands", "1", "--no-data", "30", "--min-region", "5"];
+    assert_eq!(told(&words, "pixels"), [197]);
 }

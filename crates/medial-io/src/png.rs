@@ -91,7 +91,8 @@ mod tests {
         let overlay = Overlay { grid, colours, layers, is_georeferenced: false, crs: None };
         let options = Options { legend: false, ..Options::default() };
         let bytes = write_overlay(&overlay, &options).unwrap();
-        let read = crate::image::read_colours(crate::Format::Png, &bytes, &[]).unwrap();
+        let world = crate::image::WorldFile::default();
+        let read = crate::image::read_colours(crate::Format::Png, &bytes, &[], &world).unwrap();
         let at = |x: usize, y: usize| read.values[y * read.grid.columns as usize + x];
         assert_eq!(at(10, 10), [1.0; 3], "the margin");
         assert_eq!((at(60, 60), at(2000, 60)), ([1.0, 0.0, 0.0], [0.0, 1.0, 0.0]));

@@ -245,7 +245,7 @@ fn masks_may_come_without_their_outlines() {
 fn what_is_transparent_has_no_bands() {
     use ::png::{BitDepth, ColorType};
     let clear = png_of(2, 1, ColorType::Rgba, BitDepth::Eight, &[9, 8, 7, 255, 6, 5, 4, 0]);
-    let read = read_colours(Format::Png, &clear, &[2]).unwrap();
+    let read = read_colours(Format::Png, &clear, &[2], &WorldFile::default()).unwrap();
     assert_eq!(read.values[0], [8.0, 0.0, 0.0]);
     assert!(read.values[1][0].is_nan() && read.are_bands);
 }

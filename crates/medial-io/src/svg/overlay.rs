@@ -60,7 +60,7 @@ impl LineStyle {
     pub const DELAUNAY: Self = Self::line("#ffffff", 0.4, &[]);
     pub const CRUST: Self = Self::line("#ff9800", 1.2, &[]);
     pub const DUAL: Self = Self::line("#00b0ff", 0.8, &[3.0, 2.0]);
-    pub const NODES: Self = Self::line("#b2ff59", 2.4, &[]);
+    pub const NODES: Self = Self::line("#b2ff59", 6.0, &[]);
     pub const AXIS: Self = Self::line("#ff1744", 2.0, &[]);
     pub const CHANGE: Self = Self::line("#ffffff", 1.2, &[]);
     pub const GAINED: Self = Self { fill: 0.5, ..Self::line("#00e676", 0.6, &[]) };

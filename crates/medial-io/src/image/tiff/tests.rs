@@ -1,5 +1,6 @@
-use crate::image::{Colours, read_colours, read_mask, write_labels};
+use crate::image::{Colours, WorldFile, read_colours, read_mask, read_numbers, write_labels};
 use crate::{Format, ReadOptions};
+use medial::raster::Grid;
 
 /// Values of a tag.
 enum Field {
@@ -77,7 +78,7 @@ fn strips(
 }
 
 fn colours(bytes: &[u8], bands: &[usize]) -> Colours {
-    read_colours(Format::Tiff, bytes, bands).unwrap()
+    read_colours(Format::Tiff, bytes, bands, &WorldFile::default()).unwrap()
 }
 
 /// The first value of each pixel; `None` where there is none.
@@ -101,7 +102,7 @@ fn grey_with_opacity_is_grey() {
     assert_eq!(firsts(&read), [Some(0.2), None]);
     assert_eq!(firsts(&colours(&bytes, &[1])), [Some(51.0), None]);
     assert_eq!(cells(&bytes, 20.0), [true, false]);
-    let error = read_colours(Format::Tiff, &bytes, &[2]).unwrap_err();
+    let error = read_colours(Format::Tiff, &bytes, &[2], &WorldFile::default()).unwrap_err();
     assert_eq!(error.to_string(), "the image has no band 2; they go from 1 to 1");
 }
 
@@ -124,7 +125,7 @@ fn bands_beside_a_colour_are_read_whatever_they_are() {
     let read = colours(&bytes, &[]);
     assert!(!read.are_bands);
     assert_eq!(read.values[1], [11.0, 21.0, 31.0].map(|v| v / 255.0));
-    let error = read_colours(Format::Tiff, &bytes, &[5]).unwrap_err();
+    let error = read_colours(Format::Tiff, &bytes, &[5], &WorldFile::default()).unwrap_err();
     assert_eq!(error.to_string(), "the image has no band 5; they go from 1 to 4");
 }
 
@@ -200,7 +201,8 @@ fn colours_of_floating_point_go_up_to_one() {
         file(1, 1, 3, 32, &data, vec![(262, Short(vec![2])), (339, Short(vec![3; 3]))])
     };
     assert_eq!(colours(&of([0.5, 1.0, 0.0]), &[]).values, [[0.5, 1.0, 0.0]]);
-    let error = read_colours(Format::Tiff, &of([0.5, 255.0, 0.0]), &[]).unwrap_err();
+    let error =
+        read_colours(Format::Tiff, &of([0.5, 255.0, 0.0]), &[], &WorldFile::default()).unwrap_err();
     assert!(error.to_string().contains("such as 255, where 1 is the greatest"), "{error}");
     assert_eq!(colours(&of([0.5, 255.0, 0.0]), &[1, 2]).values, [[0.5, 255.0, 0.0]]);
 }
@@ -221,14 +223,39 @@ fn placed(keys: &[u16]) -> Vec<u8> {
 #[test]
 fn labels_lie_where_their_image_does() {
     let image = placed(&[1024, 0, 1, 1, 3072, 0, 1, 25832]);
-    let labels = write_labels(2, 1, &[1, 70_000], &image);
+    let Colours { grid, crs, .. } = colours(&image, &[]);
+    let labels = write_labels(&grid, crs.as_ref(), &[1, 70_000], 0, &image);
     let read = colours(&labels, &[]);
     assert_eq!(firsts(&read), [Some(1.0), Some(70_000.0)]);
-    assert_eq!(read.grid, colours(&image, &[]).grid);
+    assert_eq!(read.grid, grid);
     assert_eq!(read.crs.and_then(|crs| crs.epsg_code()), Some(25832));
     assert!(labels.windows(10).any(|bytes| bytes == b"Somewhere|"));
-    let read = colours(&write_labels(2, 1, &[1, 2], b""), &[]);
-    assert_eq!(read.grid, medial::raster::Grid::of_image(2, 1));
+    let nowhere = Grid::of_image(2, 1);
+    let read = colours(&write_labels(&nowhere, None, &[1, 2], 0, b""), &[]);
+    assert_eq!(read.grid, nowhere);
+    // A place that a file beside the image told, as corners and a size or, where rows go up, as a matrix.
+    for (cell, code) in [([2.0, -3.0], 4326), ([2.0, 3.0], 25832), ([-0.5, -3.0], 2_000_000)] {
+        let grid = Grid { origin: medial::geom::Point::new(7.0, 9.0), cell, ..nowhere };
+        let crs = crate::Crs::epsg(code);
+        let read = colours(&write_labels(&grid, Some(&crs), &[1, u32::MAX], u32::MAX, b""), &[]);
+        assert_eq!(read.grid, grid);
+        assert_eq!(firsts(&read), [Some(1.0), None]);
+        // Codes that no key holds are left out.
+        let known = (code < 65_536).then_some(code);
+        assert_eq!(read.crs.and_then(|crs| crs.epsg_code()), known);
+    }
+}
+
+#[test]
+fn numbers_of_labels_are_exact() {
+    let grid = Grid::of_image(3, 1);
+    let labels = write_labels(&grid, None, &[0, 16_777_217, u32::MAX], u32::MAX, b"");
+    let read = read_numbers(Format::Tiff, &labels, &WorldFile::default()).unwrap();
+    assert_eq!(read.values[..2], [0.0, 16_777_217.0]);
+    assert!(read.values[2].is_nan());
+    let two = file(1, 1, 2, 8, &[1, 2], vec![(262, Short(vec![1])), (338, Short(vec![0]))]);
+    let error = read_numbers(Format::Tiff, &two, &WorldFile::default()).unwrap_err().to_string();
+    assert!(error.contains("2 bands; labels need an image of one, or of colours"), "{error}");
 }
 
 #[test]
@@ -258,7 +285,9 @@ fn wide_values_that_are_nearly_black_are_told() {
 #[test]
 fn a_compression_that_is_not_read_is_named() {
     let more = vec![(259, Short(vec![50_000])), (262, Short(vec![1]))];
-    let error = read_colours(Format::Tiff, &file(1, 1, 1, 8, &[1], more), &[]).unwrap_err();
+    let error =
+        read_colours(Format::Tiff, &file(1, 1, 1, 8, &[1], more), &[], &WorldFile::default())
+            .unwrap_err();
     assert!(error.to_string().contains("ZSTD (50000)"), "{error}");
     assert!(error.to_string().contains("COMPRESS=DEFLATE"), "{error}");
 }
@@ -301,7 +330,12 @@ fn samples_that_are_no_colours_are_told_with_a_way_out() {
     // Complex numbers, and the brightness and two differences of the eye.
     for more in [vec![(262, Short(vec![1])), (339, Short(vec![6]))], vec![(262, Short(vec![8]))]] {
         let each = if more.len() == 1 { 3 } else { 1 };
-        let error = read_colours(Format::Tiff, &file(1, 1, each, 8, &[1; 3], more), &[]);
+        let error = read_colours(
+            Format::Tiff,
+            &file(1, 1, each, 8, &[1; 3], more),
+            &[],
+            &WorldFile::default(),
+        );
         let error = error.unwrap_err().to_string();
         assert!(
             error.ends_with("; save it in grey or RGB, of whole or floating-point numbers"),
