@@ -32,7 +32,8 @@ The engine knows which samples are neighbours; the one-step crust finds that out
 - *not Delaunay*: pairs that are not joined in the Delaunay graph by themselves.
 - *broken*: by how many the components of the axis, pruned by a chord residual of 2 pixels, differ from those of the mask.
 - *ends*: of that axis, on average.
-- *two-step*: the same of the crust of Amenta, Bern and Eppstein, for which the Voronoi vertices are triangulated once more; of no vertex near it, not only of those beside it, its circle may hold one, so it has fewer edges. *ns*: both from the samples alone, nanoseconds of processor time a sample.
+- *two-step*: the same of the crust of Amenta, Bern and Eppstein, for which the Voronoi vertices are triangulated as well: the circle of an edge may hold none of them, not only none of those beside it, so there are fewer edges.
+- *ns*: nanoseconds of processor time a sample, for either crust from the samples alone.
 
 Nearly all false edges join both sides of a place where two pixels touch at a corner only: the outline leaves half a diagonal between them there, so samples are twice as dense at such places.
 

@@ -1,8 +1,8 @@
 //! Points that somebody chose, each with what it is to do.
 //!
 //! # Contract
-//! Comma-separated values with a first row that names the columns `action`, `x` and `y` in any order, others being passed
-//! over; without a column `action` each point is to `add`. Or JSON lines, each an object with `x` and `y` and, if it
+//! Values between commas, semicolons or tabs with a first row that names the columns `action`, `x` and `y` in any order,
+//! others being passed over; without a column `action` each point is to `add`. Or JSON lines, each an object with `x` and `y` and, if it
 //! is not `add`, an `action`. Blank lines, and lines that start with `#`, are passed over.
 
 use crate::{Error, text};
@@ -71,8 +71,9 @@ fn of_json(line: usize, text: &str) -> Result<ClickRow, Error> {
 }
 
 fn of_table(lines: &[(usize, &str)]) -> Result<Vec<ClickRow>, Error> {
+    let separator = [',', ';', '\t'].into_iter().find(|&c| lines[0].1.contains(c)).unwrap_or(',');
     let values = |text: &str| -> Vec<String> {
-        text.split(',').map(|value| value.trim().trim_matches('"').to_owned()).collect()
+        text.split(separator).map(|value| value.trim().trim_matches('"').to_owned()).collect()
     };
     let wrong = |line: usize, why: String| Error::Syntax { line, column: 1, why };
     let (first, head) = (lines[0].0, values(lines[0].1));
@@ -109,6 +110,10 @@ mod tests {
             ClickRow { line: 4, action: "combine".to_owned(), at: Point::new(1.0, -2.0) };
         assert_eq!(rows, [expected]);
         assert_eq!(read(b"x,y\n1,2\n").unwrap()[0].action, "add");
+        for text in ["action;x;y\nadd;1;-2\n", "x\ty\n1\t-2\n"] {
+            let [row] = &read(text.as_bytes()).unwrap()[..] else { panic!("{text}") };
+            assert_eq!((row.action.as_str(), row.at), ("add", Point::new(1.0, -2.0)), "{text}");
+        }
     }
 
     #[test]

@@ -263,7 +263,20 @@ pub fn point_record(radius: f64, kind: &str, n_measures: usize, shape: Shape) ->
     Record { values: values.collect(), shape }
 }
 
-/// The keypoints that are written: all, or those where lines end.
+/// The keypoints that are written as points: those where lines end if that is asked for, else what pruning left without
+/// a path.
+pub(crate) fn written_keypoints(axis: &MedialAxis, drawing: Drawing) -> Vec<u32> {
+    if drawing.keypoints {
+        return shown_keypoints(axis, drawing);
+    }
+    if axis.complete {
+        return Vec::new();
+    }
+    let alone = (0..).zip(axis.degrees()).filter(|&(_, degree)| degree == 0);
+    alone.map(|(keypoint, _)| keypoint).collect()
+}
+
+/// The keypoints that are shown: all, or those where lines end.
 pub(crate) fn shown_keypoints(axis: &MedialAxis, drawing: Drawing) -> Vec<u32> {
     let all = 0..axis.keypoints().len() as u32;
     match (drawing.joining(axis), axis.accuracy) {

@@ -34,15 +34,27 @@ fn on_border(mut feature: Feature, mut points: Vec<Point>) -> Feature {
     points.retain(|p| seen.insert([p.x, p.y].map(|v| (v + 0.0).to_bits())));
     let n_repeats = n_given - points.len();
     let Border { rings, left_out } = border(&points);
-    feature.geometry = format!("{n_given} points without a closed border");
+    let are = |n: usize, one: &str, more: &str| match n {
+        1 => format!("1 point {one}"),
+        n => format!("{n} points {more}"),
+    };
+    let without = "without a closed border";
+    feature.geometry = are(n_given, without, without);
     if n_repeats > 0 {
-        let text = format!("{n_repeats} points are given once more and taken once");
+        let text = are(
+            n_repeats,
+            "is given once more and taken once",
+            "are given once more and taken once",
+        );
         feature.notes.push(Note { code: "duplicate_point", text });
     }
     if !rings.is_empty() {
         if !left_out.is_empty() {
-            let text =
-                format!("{} points lie on no closed border and are left out", left_out.len());
+            let text = are(
+                left_out.len(),
+                "lies on no closed border and is left out",
+                "lie on no closed border and are left out",
+            );
             feature.notes.push(Note { code: "point_left_out", text });
         }
         feature.add_polygon(rings);

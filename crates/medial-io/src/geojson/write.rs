@@ -1,6 +1,6 @@
 use crate::json::{compact, push_quoted};
 use crate::number::decimal;
-use crate::path::{PathRecord, measure_columns, records, shown_keypoints};
+use crate::path::{PathRecord, measure_columns, records, written_keypoints};
 use crate::{Crs, Drawing, Feature};
 use medial::axis::{Engine, MedialAxis};
 use medial::geom::Point;
@@ -64,9 +64,9 @@ fn write(
     [before, after]: [&[u8]; 2],
 ) {
     let tolerance = drawing.tolerance(axis);
-    let degrees = if drawing.keypoints || !axis.complete { axis.degrees() } else { Vec::new() };
-    let is_written = |&degree: &u32| drawing.keypoints || degree == 0;
-    let drawing = Drawing { keypoints: degrees.iter().any(is_written), ..drawing };
+    let keypoints = written_keypoints(axis, drawing);
+    let degrees = if keypoints.is_empty() { Vec::new() } else { axis.degrees() };
+    let drawing = Drawing { keypoints: drawing.keypoints || !keypoints.is_empty(), ..drawing };
     let columns: Vec<_> = measured.iter().flat_map(measure_columns).collect();
     let ours = |name: &str| is_ours(name, drawing) || columns.iter().any(|ours| ours == name);
     let mut common = beginning(source, Some(axis.engine), ours, before);
@@ -105,9 +105,7 @@ fn write(
         out.extend_from_slice(b"]}}");
         out.extend_from_slice(after);
     }
-    let shown = if degrees.is_empty() { Vec::new() } else { shown_keypoints(axis, drawing) };
-    let shown = shown.into_iter().map(|k| (k, degrees[k as usize]));
-    for (k, degree) in shown.filter(|(_, degree)| is_written(degree)) {
+    for (k, degree) in keypoints.into_iter().map(|k| (k, degrees[k as usize])) {
         let keypoint = axis.keypoints().at(k);
         out.extend_from_slice(&common);
         let properties = format!(

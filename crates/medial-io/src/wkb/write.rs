@@ -1,6 +1,6 @@
 use super::polygons::write_polygons;
 use crate::Drawing;
-use crate::path::{records, shown_keypoints};
+use crate::path::{records, written_keypoints};
 use crate::record::Shape;
 use medial::axis::MedialAxis;
 use medial::geom::Point;
@@ -21,7 +21,9 @@ pub fn write(axis: &MedialAxis, drawing: Drawing) -> Vec<u8> {
     let mut out = Vec::new();
     let z = if drawing.radius_as_z { IN_SPACE } else { 0 };
     let tolerance = drawing.tolerance(axis);
-    if drawing.keypoints {
+    let keypoints = written_keypoints(axis, drawing);
+    let is_collection = drawing.keypoints || !keypoints.is_empty();
+    if is_collection {
         head(&mut out, COLLECTION + z);
         count(&mut out, 2);
     }
@@ -36,11 +38,10 @@ pub fn write(axis: &MedialAxis, drawing: Drawing) -> Vec<u8> {
             point(&mut out, p, drawing.radius_as_z.then_some(radius));
         }
     }
-    if drawing.keypoints {
+    if is_collection {
         head(&mut out, MULTI_POINT + z);
-        let shown = shown_keypoints(axis, drawing);
-        count(&mut out, shown.len());
-        for keypoint in shown {
+        count(&mut out, keypoints.len());
+        for keypoint in keypoints {
             let keypoint = axis.keypoints().at(keypoint);
             head(&mut out, POINT + z);
             point(&mut out, keypoint.position, drawing.radius_as_z.then_some(keypoint.radius));

@@ -1,28 +1,30 @@
 use crate::Drawing;
 use crate::number::push_shortest;
-use crate::path::{records, shown_keypoints};
+use crate::path::{records, written_keypoints};
 use crate::record::Shape;
 use medial::axis::MedialAxis;
 use medial::geom::Point;
 
 /// The axis as one MULTILINESTRING, a line per path, with its line end.
 ///
-/// With keypoints it is a collection of the lines and a MULTIPOINT.
+/// With keypoints, or if pruning left points, it is a collection of the lines and a MULTIPOINT.
 #[must_use]
 pub fn write(axis: &MedialAxis, drawing: Drawing) -> String {
     let tolerance = drawing.tolerance(axis);
     let z = if drawing.radius_as_z { "Z " } else { "" };
     let mut out = String::with_capacity(LINE_BYTES * axis.paths().len());
-    if drawing.keypoints {
+    let keypoints = written_keypoints(axis, drawing);
+    let is_collection = drawing.keypoints || !keypoints.is_empty();
+    if is_collection {
         out.extend(["GEOMETRYCOLLECTION ", z, "("]);
     }
     out.extend(["MULTILINESTRING ", z]);
     group(&mut out, records(axis, drawing), |out, record| {
         points(out, &record.points(drawing, tolerance), drawing.radius_as_z);
     });
-    if drawing.keypoints {
+    if is_collection {
         out.extend([", MULTIPOINT ", z]);
-        group(&mut out, shown_keypoints(axis, drawing), |out, keypoint| {
+        group(&mut out, keypoints, |out, keypoint| {
             let keypoint = axis.keypoints().at(keypoint);
             out.push('(');
             point(out, keypoint.position, drawing.radius_as_z.then_some(keypoint.radius));
