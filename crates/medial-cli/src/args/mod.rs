@@ -7,6 +7,7 @@ mod engine;
 mod image;
 mod offset;
 mod pruning;
+mod run;
 mod segment;
 mod walls;
 
@@ -19,6 +20,7 @@ pub use engine::{ChosenEngine, engine_for};
 pub use image::{Choice, ImageArgs, Layer as ImageLayer};
 pub use offset::OffsetArgs;
 pub use pruning::{Prune, Pruning};
+pub use run::{OnError, RunOptions, When};
 pub use segment::{ImageRun, Method as SegmentMethod, SegmentArgs, Segmentation, colour};
 pub use walls::WallsArgs;
 
@@ -36,7 +38,7 @@ use medial_io::svg::Extra;
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 use std::str::FromStr;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 /// Exact medial axes of polygons.
 #[derive(Debug, Parser)]
@@ -476,27 +478,8 @@ pub struct Common {
     /// Leave out features with more vertices
     #[arg(long, value_name = "N")]
     pub max_vertices: Option<usize>,
-    /// Leave out features that take longer, from reading to writing, in seconds
-    #[arg(long, value_name = "S", value_parser = positive, allow_negative_numbers = true)]
-    pub max_seconds: Option<f64>,
-    /// What to do about a bad feature
-    #[arg(long, value_name = "WHAT", default_value = "skip")]
-    pub on_error: OnError,
-    /// Number of threads; by default one for each processor
-    #[arg(long, value_name = "N")]
-    pub threads: Option<NonZeroUsize>,
-    /// Write to FILE, as JSON, what was repaired, dropped or refused
-    #[arg(long, value_name = "FILE")]
-    pub report: Option<PathBuf>,
-    /// Write to FILE, as JSON, how long each stage took
-    #[arg(long, value_name = "FILE")]
-    pub timings: Option<PathBuf>,
-    /// Show the progress on standard error; auto: on a terminal
-    #[arg(long, value_name = "WHEN", default_value = "auto")]
-    pub progress: When,
-    /// Print errors only, no warnings
-    #[arg(short, long)]
-    pub quiet: bool,
+    #[command(flatten)]
+    pub run: RunOptions,
 }
 
 impl Common {
@@ -514,12 +497,7 @@ impl Common {
 
     /// When a feature that is begun now must be done.
     pub fn deadline(&self) -> Option<Instant> {
-        Instant::now().checked_add(self.limit()?)
-    }
-
-    /// How long a feature may take.
-    pub fn limit(&self) -> Option<Duration> {
-        Duration::try_from_secs_f64(self.max_seconds?).ok()
+        Instant::now().checked_add(self.run.limit()?)
     }
 }
 
@@ -580,22 +558,6 @@ pub enum Rows {
     Json,
     Csv,
     Text,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum OnError {
-    /// Leave it out and go on.
-    Skip,
-    /// Stop without a result.
-    Stop,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum When {
-    /// If standard error is a terminal.
-    Auto,
-    Always,
-    Never,
 }
 
 /// The command line, understood; help and errors are told in one line or as asked for.

@@ -1,4 +1,4 @@
-use super::{Common, OnError, Target, When, count, positive};
+use super::{Common, RunOptions, Target, count, positive};
 use clap::{Args, ValueEnum};
 use medial_image::Resolution;
 use medial_io::Format;
@@ -98,35 +98,15 @@ pub struct ImageRun {
     /// Format of the image: png, jpeg, tiff; by default that of the extension, else told by the content
     #[arg(long, value_name = "FORMAT")]
     pub from: Option<Format>,
-    /// Leave out regions that take longer, in seconds, and give up an image that takes longer to be parted
-    #[arg(long, value_name = "S", value_parser = positive, allow_negative_numbers = true)]
-    pub max_seconds: Option<f64>,
-    /// What to do about a bad region
-    #[arg(long, value_name = "WHAT", default_value = "skip")]
-    pub on_error: OnError,
-    /// Number of threads; by default one for each processor
-    #[arg(long, value_name = "N")]
-    pub threads: Option<NonZeroUsize>,
-    /// Write to FILE, as JSON, what was refused, and how well the borders are sampled
-    #[arg(long, value_name = "FILE")]
-    pub report: Option<PathBuf>,
-    /// Write to FILE, as JSON, how long each stage took
-    #[arg(long, value_name = "FILE")]
-    pub timings: Option<PathBuf>,
-    /// Show the progress on standard error; auto: on a terminal
-    #[arg(long, value_name = "WHEN", default_value = "auto")]
-    pub progress: When,
-    /// Print errors only, no warnings
-    #[arg(short, long)]
-    pub quiet: bool,
+    #[command(flatten)]
+    pub run: RunOptions,
 }
 
 impl ImageRun {
     /// The same, as commands on polygons say it.
     pub fn common(&self) -> Common {
-        let Self { from, max_seconds, on_error, threads, progress, quiet, .. } = *self;
         Common {
-            from,
+            from: self.from,
             layer: None,
             text: None,
             font: Vec::new(),
@@ -138,13 +118,7 @@ impl ImageRun {
             fill: None,
             dissolve: false,
             max_vertices: None,
-            max_seconds,
-            on_error,
-            threads,
-            report: self.report.clone(),
-            timings: self.timings.clone(),
-            progress,
-            quiet,
+            run: self.run.clone(),
         }
     }
 }

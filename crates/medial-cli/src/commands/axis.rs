@@ -40,7 +40,7 @@ fn run_on(args: &'static AxisArgs, documents: Documents) -> Result<Status, Failu
     args.engine.check()?;
     args.pruning.check(&args.engine)?;
     if let Some(nodes) = args.nodes.as_deref() {
-        let others = [&args.output, &args.common.report, &args.common.timings];
+        let others = [&args.output, &args.common.run.report, &args.common.run.timings];
         if nodes.as_os_str() == "-"
             || others.into_iter().any(|other| other.as_deref() == Some(nodes))
         {
@@ -72,14 +72,14 @@ fn run_on(args: &'static AxisArgs, documents: Documents) -> Result<Status, Failu
     };
     let crs = layer.crs.clone();
     let head = head(format, csv::header(&args.measures, drawing), layer.units);
-    let mut sink = Sink::create(args.output.as_deref(), format, head, crs, args.common.quiet)?;
+    let mut sink = Sink::create(args.output.as_deref(), format, head, crs, args.common.run.quiet)?;
     let mut nodes = args.nodes.as_deref().map(Output::beside).transpose()?;
     if let Some(nodes) = &mut nodes {
         nodes.write(csv::node_header().as_bytes())?;
     }
     if let Some((measure, _)) = args.pruning.threshold()
         && !measure.is_monotone()
-        && !args.common.quiet
+        && !args.common.run.quiet
     {
         crate::progress::line(&format!(
             "warning: {measure} does not grow towards the root of a tree; parts below the value are kept \

@@ -25,7 +25,7 @@ pub fn run(args: &'static CenterlineArgs) -> Result<Status, Failure> {
     let input = run.open(&args.input)?;
     let layer = timed(&mut run.stages.read, || input.layer())?;
     let head = head(format, csv::centerline_header(), layer.units);
-    let (crs, quiet) = (layer.crs.clone(), args.common.quiet);
+    let (crs, quiet) = (layer.crs.clone(), args.common.run.quiet);
     let mut sink = Sink::create(args.output.as_deref(), format, head, crs, quiet)?;
     let mut pictures = Vec::new();
     let mut write = Duration::ZERO;

@@ -15,7 +15,7 @@ pub fn run(args: &'static CompareArgs) -> Result<Status, Failure> {
     let input = run.open(&args.input)?;
     let layer = timed(&mut run.stages.read, || input.layer())?;
     let mut output = Output::create(args.output.as_deref())?;
-    let threads = args.common.threads.unwrap_or(NonZeroUsize::MIN);
+    let threads = args.common.run.threads.unwrap_or(NonZeroUsize::MIN);
     let mut totals = Totals::default();
     let mut begun = false;
     let status = run.each(

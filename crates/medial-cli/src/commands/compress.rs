@@ -29,7 +29,7 @@ pub fn run(args: &'static CompressArgs) -> Result<Status, Failure> {
     let layer = timed(&mut run.stages.read, || input.layer())?;
     let crs = layer.crs.as_ref().and_then(Crs::member);
     let output = Output::create(file)?;
-    if let Some(lost) = lost(Format::Maxis, layer.crs.as_ref()).filter(|_| !args.common.quiet) {
+    if let Some(lost) = lost(Format::Maxis, layer.crs.as_ref()).filter(|_| !args.common.run.quiet) {
         crate::progress::line(&format!("warning: {}: {lost}", output.name()));
     }
     // The sizes go where the file does not.

@@ -62,8 +62,8 @@ impl Run {
             tolerance: None,
             masks_alone: false,
             knows_metric: true,
-            report: create(&common.report)?,
-            timings: create(&common.timings)?,
+            report: create(&common.run.report)?,
+            timings: create(&common.run.timings)?,
         })
     }
 
@@ -116,10 +116,10 @@ impl Run {
         mut write: impl FnMut(&[u8]) -> Result<(), Failure>,
     ) -> Result<Status, Failure> {
         let common = self.common;
-        let progress = Progress::new(common.progress, common.quiet, layer.len);
+        let progress = Progress::new(common.run.progress, common.run.quiet, layer.len);
         let mut report = Report {
             input: input.to_owned(),
-            is_wanted: common.report.is_some(),
+            is_wanted: common.run.report.is_some(),
             ..Report::default()
         };
         for warning in &layer.warnings {
@@ -135,7 +135,7 @@ impl Run {
         let parts = timed(&mut lock(&find), || {
             told_of_degrees(layer, input, common.metric, self.knows_metric, &progress)
         });
-        let limit = common.limit().map(|limit| Limit {
+        let limit = common.run.limit().map(|limit| Limit {
             after: limit.saturating_add(GRACE),
             instead: |number| (vec![Outcome::given_up(number)], Vec::new()),
         });
@@ -159,7 +159,7 @@ impl Run {
                     let last = outcome.end;
                     match tell(outcome, input, &progress, &mut report) {
                         Some(result) => done(result),
-                        None => stopped = common.on_error == OnError::Stop,
+                        None => stopped = common.run.on_error == OnError::Stop,
                     }
                     if stopped {
                         break;
@@ -192,7 +192,7 @@ impl Run {
 
     /// All threads that may work at once.
     pub fn all_threads(&self) -> NonZeroUsize {
-        self.common.threads.unwrap_or_else(all_processors)
+        self.common.run.threads.unwrap_or_else(all_processors)
     }
 
     /// How many features to work on at once, and with how many threads on each: where there are few

@@ -117,7 +117,7 @@ fn of_masks(
     masks: &[Numbered],
 ) -> Result<Status, Failure> {
     let format = plan.format()?;
-    let mut sink = plan.sink(format, crs, None, args.common.quiet)?;
+    let mut sink = plan.sink(format, crs, None, args.common.run.quiet)?;
     for (feature, id, code) in masks {
         let mask = code.mask().map_err(|error| input.wrong(error))?;
         let [width, height] = mask.grid().cell;
@@ -154,16 +154,16 @@ fn of_documents(
         return Err(Failure::Usage(why.to_owned()));
     }
     let format = plan.format()?;
-    let mut sink = plan.sink(format, None, None, args.common.quiet)?;
-    let progress = Progress::new(args.common.progress, args.common.quiet, None);
+    let mut sink = plan.sink(format, None, None, args.common.run.quiet)?;
+    let progress = Progress::new(args.common.run.progress, args.common.run.quiet, None);
     let (mut done, mut left_out) = (0, 0);
     let name = &input.name;
-    let limit = args.common.limit().map(|after| Limit { after, instead: Document::GivenUp });
+    let limit = args.common.run.limit().map(|after| Limit { after, instead: Document::GivenUp });
     let work = move |document: Result<AxisDocument, Error>| match document {
         Ok(document) => of_document(args, format, document),
         Err(error) => Document::Wrong(error),
     };
-    let threads = args.common.threads.unwrap_or_else(all_processors);
+    let threads = args.common.run.threads.unwrap_or_else(all_processors);
     let broke = ordered(input.axes()?, threads, work, limit.as_ref(), |document| {
         match document {
             Document::Done(bytes) => {

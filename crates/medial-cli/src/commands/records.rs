@@ -144,7 +144,7 @@ impl Plan {
         draw: impl FnOnce(Vec<P>, &mut Stages) -> Result<Vec<u8>, Failure>,
     ) -> Result<Status, Failure> {
         let format = self.format()?;
-        let mut sink = self.sink(format, layer.crs.clone(), layer.units, run.common.quiet)?;
+        let mut sink = self.sink(format, layer.crs.clone(), layer.units, run.common.run.quiet)?;
         let mut parts = Vec::new();
         let mut write = Duration::ZERO;
         let (at_once, threads) = run.threads(&layer);

@@ -56,7 +56,7 @@ pub fn parted(
     let Pixels { colours, numbers } =
         timed(&mut run.stages.read, || Pixels::read(args, common.from, path, &input, mask))?;
     let image::Colours { grid, crs, values, are_bands, n_bands, warnings } = colours;
-    for warning in warnings.iter().filter(|_| !common.quiet) {
+    for warning in warnings.iter().filter(|_| !common.run.quiet) {
         crate::progress::line(&format!("warning: {}: {warning}", input.name));
     }
     let kept = if keeps_colours { values.clone() } else { Vec::new() };
@@ -85,13 +85,13 @@ pub fn parted(
     let threads = run.all_threads();
     let what = "parting the image";
     let counted = (args.method == SegmentMethod::MeanShift).then_some(grid.rows);
-    let progress = Progress::working(common.progress, common.quiet, what, counted);
+    let progress = Progress::working(common.run.progress, common.run.quiet, what, counted);
     if let Some(told) = one_sided(&args.limits, own[0]) {
         progress.warning(&format!("{}: {told}", input.name));
     }
     let steps = progress.steps();
     let found = timed(&mut run.stages.engine, || {
-        within(common.limit(), move || {
+        within(common.run.limit(), move || {
             let labels = labels(args, &field, band.as_deref(), numbers, threads, &steps);
             let regions = labels.regions(&field);
             (labels, regions)

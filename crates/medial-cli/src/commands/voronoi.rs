@@ -25,7 +25,7 @@ pub fn run(args: &'static VoronoiArgs) -> Result<Status, Failure> {
         format,
         String::new(),
         layer.crs.clone(),
-        args.common.quiet,
+        args.common.run.quiet,
     )?;
     let mut diagrams = Vec::new();
     let mut write = Duration::ZERO;
