@@ -103,11 +103,17 @@ fn run_on(args: &'static AxisArgs, documents: Documents) -> Result<Status, Failu
                 traced(engine, region, pruning, feature, domain, &options, &mut sampling)
             })?;
             stages.sampling = sampling;
-            let axes: Vec<_> = timed(&mut stages.operations, || {
-                let measured =
-                    |axis| measured(&args.pruning, &args.measures, feature, domain, axis);
-                axes.into_iter().map(measured).collect::<Result<_, _>>()
-            })?;
+            let is_whole =
+                args.measures.is_empty() && !args.pruning.removes(feature, args.engine.of(feature));
+            let axes: Vec<_> = if is_whole {
+                axes.into_iter().map(|axis| (axis, Vec::new())).collect()
+            } else {
+                timed(&mut stages.operations, || {
+                    let measured =
+                        |axis| measured(&args.pruning, &args.measures, feature, domain, axis);
+                    axes.into_iter().map(measured).collect::<Result<_, _>>()
+                })?
+            };
             Ok(timed(&mut stages.write, || {
                 let table = |(axis, _): &(MedialAxis, _)| csv::node_rows(feature, axis);
                 let table: String = match args.nodes {
