@@ -81,7 +81,7 @@ fn points_without_order_have_a_border_and_an_axis() {
     let args = ["axis", "-", "--from", "csv", "--to", "json"];
     let run = medial_with(&[&args[..], &ENGINE].concat(), &format!("x,y\n{points}50,50\n"));
     assert_eq!(run.status, Some(0), "{}", run.errors);
-    assert!(run.errors.contains("1 points lie on no closed border"), "{}", run.errors);
+    assert!(run.errors.contains("1 point lies on no closed border"), "{}", run.errors);
     let axis: Value = serde_json::from_str(run.text()).unwrap();
     // The ellipse has half axes of 4 and 2, so the middle disk has radius 2.
     let radii = axis["keypoints"].as_array().unwrap().iter();

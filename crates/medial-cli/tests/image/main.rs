@@ -186,7 +186,7 @@ fn points_that_choose_nothing_are_told() {
             "action,x,y\npaint,3,-8\n",
             "line 2: \"paint\" is no action; known are add, combine, remove",
         ),
-        ("x;y\n1;2\n", "line 1, column 1: the first row has to name the columns x and y"),
+        ("x y\n1 2\n", "line 1, column 1: the first row has to name the columns x and y"),
     ] {
         fs::write(&clicks, text).unwrap();
         let run = medial(&words(&bars, &["--clicks", file]));
