@@ -206,7 +206,7 @@ mod tests {
             notes,
             [
                 ("duplicate_point", "60 points are given once more and taken once"),
-                ("point_left_out", "1 points lie on no closed border and are left out"),
+                ("point_left_out", "1 point lies on no closed border and is left out"),
             ]
         );
         let line = feature("0 0\n1 1\n2 2\n");
@@ -284,7 +284,7 @@ mod tests {
             assert_eq!(found.len(), 1, "{format}");
             let found = found[0].as_ref().unwrap();
             assert_eq!((found.polygons.len(), found.polygons[0][0].len()), (1, 60), "{format}");
-            assert_eq!(found.notes[0].text, "1 points lie on no closed border and are left out");
+            assert_eq!(found.notes[0].text, "1 point lies on no closed border and is left out");
         }
     }
 
