@@ -78,8 +78,8 @@ pub fn parted(
     let are_given = numbers.is_some();
     let field = if are_bands && !are_given { field.stretched(extents) } else { field };
     let colours = match (keeps_colours, are_bands) {
-        (true, true) if are_given => greys(field.clone().stretched(extents)),
-        (true, true) => greys(field.clone()),
+        (true, true) if are_given => greys(&field.clone().stretched(extents)),
+        (true, true) => greys(&field),
         _ => kept,
     };
     let threads = run.all_threads();
@@ -113,7 +113,7 @@ pub fn parted(
 }
 
 /// The pixels of bands in colours, of which they have none.
-fn greys(field: Field) -> Vec<[f32; 3]> {
+fn greys(field: &Field) -> Vec<[f32; 3]> {
     field.values().iter().map(|&value| shown(value, true)).collect()
 }
 

@@ -1,5 +1,6 @@
 //! The dual graph of the triangles inside, by the five rules [ASM09, §III].
 
+use std::collections::HashSet;
 use std::ops::Range;
 
 use super::samples::Samples;
@@ -56,8 +57,10 @@ pub(super) struct Dual {
     group_of: Vec<u32>,
     /// An edge of each group, which lies to its left.
     pub groups: Vec<EdgeId>,
-    /// Vertices of more than two boundary edges, with the boundary edges out of them.
+    /// Vertices of more than two boundary edges through which the graph goes, with the boundary edges out of them.
     pub shared: Vec<(u32, Range<u32>)>,
+    /// All vertices where several boundary edges start.
+    several: Vec<u32>,
     spokes: Vec<EdgeId>,
     pub edges: Vec<DualEdge>,
     /// Whether edges go to infinity, which is the last node then.
@@ -65,8 +68,9 @@ pub(super) struct Dual {
 }
 
 impl Dual {
-    /// The dual graph of the triangles to the left of rings of samples, which are edges that are kept.
-    pub fn new(triangles: &Delaunay, samples: &Samples) -> Self {
+    /// The dual graph of the triangles to the left of rings of samples, which are edges that are kept. Triangles on both
+    /// sides of some edges are one node even if they are not on one circle.
+    pub fn new(triangles: &Delaunay, samples: &Samples, inner: &HashSet<EdgeId>) -> Self {
         let n_directions = 2 * (triangles.n_edges() + triangles.n_hull()) as usize;
         let mut boundary = vec![NONE; n_directions];
         let mut walls = Vec::with_capacity(samples.points.len());
@@ -84,11 +88,12 @@ impl Dual {
             group_of: vec![NONE; n_faces],
             groups: Vec::with_capacity(samples.points.len()),
             shared: Vec::new(),
+            several: Vec::new(),
             spokes: Vec::new(),
             edges: Vec::with_capacity(samples.points.len()),
             is_unbounded: false,
         };
-        dual.group(triangles);
+        dual.group(triangles, inner);
         dual.join(triangles);
         dual.link(triangles, samples);
         let infinity = (dual.groups.len() + dual.shared.len()) as u32;
@@ -100,7 +105,11 @@ impl Dual {
     }
 
     /// Rules 1 and 2: a node for each triangle inside, and one for each group of them on one circle.
-    fn group(&mut self, triangles: &Delaunay) {
+    fn group(&mut self, triangles: &Delaunay, inner: &HashSet<EdgeId>) {
+        let is_inner = |edge: EdgeId, back: EdgeId| {
+            triangles.is_cocircular(edge)
+                || !inner.is_empty() && (inner.contains(&edge) || inner.contains(&back))
+        };
         let (mut open, mut members) = (Vec::new(), Vec::new());
         for wall in 0..self.walls.len() {
             open.push(self.walls[wall]);
@@ -124,7 +133,7 @@ impl Dual {
                         {
                             continue;
                         }
-                        if triangles.is_cocircular(edge) {
+                        if is_inner(edge, back) {
                             self.group_of[beyond as usize] = group;
                             members.push(back);
                         } else {
@@ -150,7 +159,7 @@ impl Dual {
     }
 
     /// Rules 3 and 4: edges from each vertex of more than two boundary edges to the node in each corner there that is
-    /// less than half a turn wide.
+    /// less than half a turn wide. Where polygons share an edge they touch in more than a point, and stay apart.
     fn link(&mut self, triangles: &Delaunay, samples: &Samples) {
         if samples.len() == triangles.n_vertices() {
             return;
@@ -161,9 +170,13 @@ impl Dual {
             if spokes.len() < 2 {
                 continue;
             }
+            let vertex = triangles.origin(spokes[0]);
+            self.several.push(vertex);
+            if spokes.iter().any(|&edge| self.boundary_at(triangles.reversed(edge)) != NONE) {
+                continue;
+            }
             let node = (self.groups.len() + self.shared.len()) as u32;
             let first = self.spokes.len() as u32;
-            let vertex = triangles.origin(spokes[0]);
             // Counterclockwise.
             let around = triangles.edges_out_of(vertex);
             self.spokes.extend(around.filter(|&edge| self.boundary[edge as usize >> 1] != NONE));
@@ -213,7 +226,7 @@ impl Dual {
         self.groups.len() + self.shared.len() + usize::from(self.is_unbounded)
     }
 
-    /// Whether a vertex is one of more than two boundary edges.
+    /// Whether a vertex is one of more than two boundary edges through which the graph goes.
     #[inline]
     pub fn is_shared(&self, vertex: u32) -> bool {
         let known = || self.shared.binary_search_by_key(&vertex, |&(vertex, _)| vertex);
@@ -223,7 +236,7 @@ impl Dual {
     /// The sample at the start of an edge inside, or of a boundary edge.
     pub fn sample_at(&self, triangles: &Delaunay, edge: EdgeId) -> u32 {
         let vertex = triangles.origin(edge);
-        if !self.is_shared(vertex) {
+        if self.several.is_empty() || self.several.binary_search(&vertex).is_err() {
             return triangles.point_of(vertex);
         }
         // Clockwise up to the boundary edge that starts in this corner.

@@ -2,7 +2,8 @@
 //!
 //! # Contract
 //! The axis has the components and cycles of the domain, whatever the spacing; where the boundary touches itself it
-//! goes through that point between corners less than 180 degrees wide. Distances of keypoints from the boundary are
+//! goes through that point between corners less than 180 degrees wide. Polygons that share a part of an edge are pieces of
+//! their own. Distances of keypoints from the boundary are
 //! within the spacing of their radii, and with the spacing the axis tends to the exact one.
 //! A mask is taken as the polygon through the middles of the cracks of its outline: cells that touch at a corner hang
 //! together, holes do not. Expected O(n log n) for n samples.
@@ -13,7 +14,7 @@
 //! 2. Their Delaunay triangulation ([`Delaunay`]), in which neighbours along the boundary are joined. Where they are
 //!    not of themselves the sampling is too coarse, which [`Sampling`] tells.
 //! 3. The dual graph by the rules of [ASM09, §III], in their order: a node for each triangle inside; one for all
-//!    triangles on one circle, decided exactly; at vertices of more than two boundary edges a node of its own, joined
+//!    triangles on one circle, decided exactly, or on circles whose centres are rounded to one point; at vertices of more than two boundary edges a node of its own, joined
 //!    to the triangles between two of these, or to their circle; an edge between nodes on both sides of an inner edge.
 //! 4. Nodes move from the middles of their triangles to the centres of their circles, so edges of the dual graph
 //!    become Voronoi edges; the elements that their two samples lie on govern them.
@@ -48,11 +49,11 @@ use crate::geom::{Blocked, Delaunay, Point, Rect, parted, signed_area};
 use crate::raster::{Cracks, Mask, default_cell};
 use axis::{Drawn, Label};
 pub use crust::{Border, border, crust, two_step_crust};
-use dual::Dual;
 pub use dual::DualKind;
+use dual::{Dual, DualEdge};
 use residuals::{Left, residuals};
 use samples::{Plane, Samples};
-use std::collections::BTreeSet;
+use std::collections::{BTreeSet, HashSet};
 
 /// The distance between samples of masks where nothing else is said, in sides of a cell: with it the crust of
 /// silhouettes has all their edges and, of others, little more than one in a thousand.
@@ -199,7 +200,8 @@ impl<'a> DelaunayDual<'a> {
                 Source::Outside(outside) => (outside.domain(), &outside.domain().walks()[1..]),
                 Source::Mask(..) => break Err(EngineError::Spacing { spacing }),
             };
-            let touched: &Vec<_> = touched.get_or_insert_with(|| domain.touched_edges());
+            let touched: &Option<Vec<_>> = touched.get_or_insert_with(|| domain.touched_edges());
+            let touched = touched.as_deref();
             let samples = Samples::of_walks(domain, walks, spacing, touched, &whole)?;
             watch.check_now()?;
             let crowded = match triangulated(&samples, watch)? {
@@ -306,10 +308,20 @@ impl<'a> DelaunayDual<'a> {
         watch: &Watch<'_>,
     ) -> Result<Self, EngineError> {
         watch.check_now()?;
-        let dual = Dual::new(&triangles, &samples);
-        watch.check_now()?;
-        let disks = dual::disks(&triangles, &dual);
-        watch.check_now()?;
+        let mut inner = HashSet::new();
+        let (dual, disks) = loop {
+            let dual = Dual::new(&triangles, &samples, &inner);
+            watch.check_now()?;
+            let disks = dual::disks(&triangles, &dual);
+            watch.check_now()?;
+            let before = inner.len();
+            let n = disks.len() as u32;
+            let edges = dual.edges.iter().filter(|edge| edge.from.max(edge.to) < n);
+            inner.extend(edges.filter(|edge| is_one(edge, &disks, &plane)).map(|edge| edge.across));
+            if inner.len() == before {
+                break (dual, disks);
+            }
+        };
         Ok(Self { source, frame, samples, plane, triangles, n_missing, dual, disks, spacing })
     }
 
@@ -462,6 +474,12 @@ impl<'a> DelaunayDual<'a> {
             }
         }
     }
+}
+
+/// Whether the circles at both ends of an edge of the dual graph have one centre, as rounded.
+fn is_one(edge: &DualEdge, disks: &[(Point, f64)], plane: &Plane) -> bool {
+    let [a, b] = [edge.from, edge.to].map(|node| plane.place(disks[node as usize].0));
+    a == b
 }
 
 /// The triangulation of samples in which neighbours are joined, and how many are not of themselves; or samples that

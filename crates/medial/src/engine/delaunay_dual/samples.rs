@@ -1,6 +1,6 @@
 //! Samples of a boundary: rings of points that know what of it they lie on.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeSet, HashSet};
 use std::ops::Range;
 
 use crate::domain::{Corner, Domain, Site, Walk};
@@ -18,27 +18,33 @@ pub(super) struct Samples {
     /// The element that a sample lies on, twice; at a convex corner that before and that after it.
     pub elements: Vec<[u32; 2]>,
     pub rings: Vec<Range<u32>>,
-    /// Those within an edge where a corner of another polygon is.
+    /// Those within an edge where another polygon has a sample too: a corner, or one on the same edge.
     pub touched: Vec<u32>,
 }
 
 impl Samples {
-    /// Samples of walks, at most so far from one another: all corners, corners of other polygons that touch an edge, and
-    /// points between them but on some edges.
+    /// Samples of walks, at most so far from one another: all corners, corners of other polygons that touch an edge, if
+    /// any polygons touch, and points between them but on some edges.
     pub fn of_walks(
         domain: &Domain,
         walks: &[Walk],
         spacing: f64,
-        touched: &[(u32, Point)],
+        touched: Option<&[(u32, Point)]>,
         whole: &BTreeSet<u32>,
     ) -> Result<Self, EngineError> {
         if !(spacing > 0.0 && spacing.is_finite()) {
             return Err(EngineError::Spacing { spacing });
         }
         let stops = |edge: u32| {
+            let touched = touched.unwrap_or_default();
             let from = touched.partition_point(|touch| touch.0 < edge);
             let to = from + touched[from..].partition_point(|touch| touch.0 == edge);
-            &touched[from..to]
+            touched[from..to].iter().map(|touch| touch.1)
+        };
+        // The pieces of an edge between these.
+        let parts = |edge: u32| {
+            let starts = std::iter::once(domain.edge(edge).start).chain(stops(edge));
+            starts.zip(stops(edge).chain(std::iter::once(domain.end(edge))))
         };
         let pieces = |edge: u32, length: f64| match whole.contains(&edge) {
             false => (length / spacing).ceil().max(1.0),
@@ -51,11 +57,15 @@ impl Samples {
         if n > MOST {
             return Err(EngineError::Samples { samples: n, spacing });
         }
+        let bits = |p: Point| [p.x + 0.0, p.y + 0.0].map(f64::to_bits);
+        let all: HashSet<_> = match touched {
+            Some(_) => edges().flat_map(parts).map(|(a, b)| (bits(a), bits(b))).collect(),
+            None => HashSet::new(),
+        };
         let mut samples = Self::with_room(n as usize, walks.len());
         for walk in walks {
             let first = samples.len();
             for edge in walk.edges() {
-                let (start, end) = (domain.edge(edge).start, domain.end(edge));
                 let sides = [domain.edge(edge).prev, edge].map(|edge| Site::edge(edge).0);
                 let at_start = match domain.edge(edge).corner {
                     Corner::Convex => sides,
@@ -63,25 +73,22 @@ impl Samples {
                     Corner::Straight => [sides[1]; 2],
                 };
                 let within = [Site::edge(edge).0; 2];
-                samples.push(start, at_start);
-                let stops = stops(edge).iter().map(|touch| touch.1);
-                if stops.len() == 0 {
-                    samples.push_between(
-                        start,
-                        end,
-                        pieces(edge, domain.edge(edge).length),
-                        within,
-                    );
-                    continue;
-                }
-                let mut from = start;
-                for to in stops.chain(std::iter::once(end)) {
-                    samples.push_between(from, to, pieces(edge, (to - from).norm()), within);
-                    if to != end {
+                for (k, (from, to)) in parts(edge).enumerate() {
+                    if k > 0 {
                         samples.touched.push(samples.len());
-                        samples.push(to, within);
                     }
-                    from = to;
+                    samples.push(from, if k == 0 { at_start } else { within });
+                    let length = if k == 0 && to == domain.end(edge) {
+                        domain.edge(edge).length
+                    } else {
+                        (to - from).norm()
+                    };
+                    let next = samples.len();
+                    samples.push_between(from, to, pieces(edge, length), within);
+                    // What two polygons share has the same samples on both sides.
+                    if all.contains(&(bits(to), bits(from))) {
+                        samples.touched.extend(next..samples.len());
+                    }
                 }
             }
             samples.rings.push(first..samples.len());
@@ -173,7 +180,7 @@ impl Samples {
         before != after
     }
 
-    /// The edge between whose ends a sample lies, if it is no corner of any polygon.
+    /// The edge between whose ends a sample lies, if it is one of no other polygon.
     pub fn edge_within(&self, domain: &Domain, sample: u32) -> Option<u32> {
         let site = Site(self.elements[sample as usize][0]);
         let is_within = site.is_edge()
