@@ -2,8 +2,9 @@
 
 mod common;
 
-use common::medial;
+use common::{medial, medial_with};
 use serde_json::Value;
+use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -106,6 +107,11 @@ fn wrong_words_and_files_are_told() {
             "--palette is for methods with classes",
         ),
         (&["--no-data", "blue"], "--no-data blue is no colour"),
+        (&["--labels", "-"], "--labels needs a file of its own"),
+        (&["--palette", "-"], "--palette needs a file of its own"),
+        (&["--palette", "p.png"], "--palette writes csv and gpl"),
+        (&["-o", "x.png", "--palette", "x.pgw"], "--palette needs a file of its own"),
+        (&["-o", "x.png", "--report", "x.prj"], "--report needs a file of its own"),
         (&["--bands", "1", "--no-data", "blue"], "--no-data blue is no number"),
     ] {
         let run = medial(&[&["segment", picture], words].concat());
@@ -205,6 +211,10 @@ fn labels_are_regions_connected_or_not() {
     assert_eq!(told(&labels, "mean_2"), [(); 4].map(|()| Value::Null));
     assert_eq!(told(&labels, "pixels"), [4, 2, 3, 1]);
     assert_eq!(told(&labels, "n_polygons"), [1, 1, 2, 1]);
+    // Each has a colour of its own.
+    let colours: BTreeSet<String> =
+        told(&labels, "color").iter().map(|colour| colour.as_str().unwrap().to_owned()).collect();
+    assert_eq!(colours.len(), 4);
     let known = [&labels[..], &["--no-data", "0"]].concat();
     assert_eq!(told(&known, "pixels"), [2, 3, 1]);
     // What was written is read again; each of four colours is one region, ground on both sides of the bar.
@@ -214,6 +224,13 @@ fn labels_are_regions_connected_or_not() {
     let pixels = told(&[picture, "--min-region", "5", "--labels", &kept], "pixels");
     assert_eq!(told(&[&kept, "--method", "labels"], "pixels"), pixels);
     assert_eq!(told(&[picture, "--method", "labels"], "pixels"), [856, 117, 197]);
+    assert_eq!(
+        told(&[picture, "--method", "labels"], "color"),
+        ["#1e28b4", "#1ea028", "#c81e1e"].map(Value::from)
+    );
+    let run = medial_with(&["segment", "-", "--mask", "-"], "");
+    assert_eq!(run.status, Some(2), "{}", run.errors);
+    assert!(run.errors.contains("standard input is named twice"), "{}", run.errors);
     // The ground is chosen by a click alone.
     let words = ["--method", "labels", "--layers", "border", "--to", "csv"];
     let run = medial(&[&["image", path.to_str().unwrap()], &words[..]].concat());

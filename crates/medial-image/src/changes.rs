@@ -116,7 +116,8 @@ impl Changes {
         if !(is_same(0) && is_same(1)) {
             return Err(ChangeError::Size { before: first.cell, after: second.cell });
         }
-        let shift = first.locate(second.origin);
+        // Zeros have no sign.
+        let shift = first.locate(second.origin).map(|way| way + 0.0);
         if shift.iter().any(|way| (way - way.round()).abs() > OFF) {
             return Err(ChangeError::Shift { shift });
         }

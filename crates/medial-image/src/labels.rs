@@ -91,20 +91,20 @@ impl Labels {
         Self { grid, labels, classes }.numbered(|label| sets.first(label))
     }
 
-    /// The regions that an image of labels says: one for each number, connected or not, in increasing order, each a class
-    /// of its own. What is not a number is no data.
+    /// The regions that an image of labels says, with the number of each: one for each number, connected or not, in
+    /// increasing order, each a class of its own. What is not a number is no data.
     ///
     /// ```
     /// use medial::raster::Grid;
     /// use medial_image::Labels;
-    /// let labels = Labels::given(Grid::of_image(4, 1), &[7.0, f64::NAN, 2.0, 7.0]);
-    /// assert_eq!(labels.labels(), [1, Labels::NONE, 0, 1]);
+    /// let (labels, numbers) = Labels::given(Grid::of_image(4, 1), &[7.0, f64::NAN, 2.0, 7.0]);
+    /// assert_eq!((labels.labels(), &numbers[..]), (&[1, Labels::NONE, 0, 1][..], &[2.0, 7.0][..]));
     /// ```
     ///
     /// # Panics
     /// If there are not as many numbers as pixels.
     #[must_use]
-    pub fn given(grid: Grid, numbers: &[f64]) -> Self {
+    pub fn given(grid: Grid, numbers: &[f64]) -> (Self, Vec<f64>) {
         assert_eq!(numbers.len() as u64, grid.n_cells(), "a number for each pixel");
         let mut known: Vec<f64> =
             numbers.iter().copied().filter(|number| !number.is_nan()).collect();
@@ -117,7 +117,7 @@ impl Labels {
             false => known.partition_point(|other| other < number) as u32,
         };
         let labels = numbers.iter().map(label).collect();
-        Self { grid, labels, classes: (0..known.len() as u32).collect() }
+        (Self { grid, labels, classes: (0..known.len() as u32).collect() }, known)
     }
 
     /// The same regions, those joined to which something gives the same number, numbered anew.

@@ -569,3 +569,72 @@ fn measures_of_a_mask_are_those_by_which_its_dual_is_pruned() {
     // The outline through the middles of sides is a little shorter than that along them.
     assert!(kept[0] > 1000.0 && (kept[1] / kept[0] - 1.0).abs() < 0.1, "{kept:?}");
 }
+
+#[test]
+fn polygons_that_share_an_edge_are_pieces_of_their_own() {
+    let rectangle = |x: [f64; 2], y: [f64; 2]| {
+        vec![
+            [(x[0], y[0]), (x[1], y[0]), (x[1], y[1]), (x[0], y[1])]
+                .map(|(x, y)| Point::new(x, y))
+                .to_vec(),
+        ]
+    };
+    // The same side, a part of it, and one within the other; and one more that touches in a corner.
+    for (x, y) in [([2.0, 4.0], [0.0, 1.0]), ([2.0, 5.0], [0.3, 2.0]), ([2.0, 3.0], [0.25, 0.5])] {
+        let corner = rectangle([-1.0, 0.0], [1.0, 3.0]);
+        let polygons = [rectangle([0.0, 2.0], [0.0, 1.0]), rectangle(x, y), corner];
+        let domain = Domain::from_polygons(&polygons, &medial::domain::Options::default()).unwrap();
+        let exact = path_tracing(&domain).unwrap();
+        let mut before = f64::INFINITY;
+        for spacing in [0.2, 0.1, 0.05, 0.025] {
+            let options = Options { spacing: Some(spacing), ..Options::default() };
+            let axis =
+                DelaunayDual::new(&domain, &options).unwrap().axis(DualPruning::Nothing).unwrap();
+            assert_eq!(defects(&domain, &axis).defects, [], "{x:?} {spacing}");
+            // Two of the three hang together by the corner.
+            assert_eq!(graph_topology(&axis), (2, 0), "{x:?} {spacing}");
+            let found = difference(&exact, &axis);
+            // The way through the corner is no part of the exact axis.
+            assert!(found.missed <= before.max(1e-9), "{x:?} {spacing}: {}", found.missed);
+            before = found.missed;
+        }
+        assert!(before < 2e-3, "{x:?} {before}");
+    }
+}
+
+#[test]
+fn no_path_of_an_axis_has_no_length() {
+    let options = Options::default();
+    for seed in 0..60 {
+        let mask = random_mask(seed);
+        for width in [0.0, 1.0] {
+            for residual in [0.5, 2.0] {
+                let dual = DelaunayDual::of_smoothed_mask(&mask, width, &options).unwrap();
+                let dual = dual.retracted(residual, &options).unwrap();
+                let axis = dual.axis(DualPruning::Leaves).unwrap();
+                let whole = topology(&mask);
+                assert_eq!(graph_topology(&axis), (whole.components, whole.holes), "{seed}");
+                let at = |k: u32| axis.keypoints().at(k).position;
+                assert!(axis.paths().iter().all(|path| at(path.from) != at(path.to)), "{seed}");
+            }
+        }
+    }
+}
+
+#[test]
+fn axes_of_masks_are_judged_by_what_samples_cut_off_at_any_spacing() {
+    for seed in 0..10 {
+        let mask = random_mask(seed);
+        let Ok(domain) =
+            Domain::from_polygons(&outline(&mask), &medial::domain::Options::default())
+        else {
+            continue;
+        };
+        for spacing in [0.5, 0.25, 0.1] {
+            let options = Options { spacing: Some(spacing), ..Options::default() };
+            let axis =
+                DelaunayDual::of_mask(&mask, &options).unwrap().axis(DualPruning::Nothing).unwrap();
+            assert_eq!(defects(&domain, &axis).defects, [], "{seed} {spacing}");
+        }
+    }
+}

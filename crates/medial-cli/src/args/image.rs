@@ -139,7 +139,8 @@ pub struct Choice {
     #[arg(long, value_name = "RRGGBB,…", value_delimiter = ',', value_parser = colour)]
     pub select_color: Vec<[u8; 3]>,
     /// How near that is, in L*u*v*; by default 20
-    #[arg(long, value_name = "D", value_parser = positive, requires = "select_color")]
+    #[arg(long, value_name = "D", value_parser = positive, allow_negative_numbers = true,
+        requires = "select_color")]
     pub select_tolerance: Option<f64>,
 }
 
@@ -239,6 +240,9 @@ impl ImageArgs {
         if self.simplify.is_some() && (engine.smooth_border.is_some() || engine.retract.is_some()) {
             let why = "--simplify makes straight borders, --smooth-border and --retract round ones; leave one out";
             return usage(why.to_owned());
+        }
+        if !self.measures.is_empty() && self.compare.is_none() && !layers.contains(&Layer::Axis) {
+            return usage("--measures are those of the layer axis; name it in --layers".to_owned());
         }
         let of_axes = [
             ("--engine", self.engine.engine.is_some()),

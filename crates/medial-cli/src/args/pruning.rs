@@ -82,7 +82,8 @@ impl Pruning {
 
     /// The same without what an engine sees to by itself.
     fn left_to(&self, engine: Engine) -> Option<(Measure, f64)> {
-        self.threshold().filter(|&(measure, _)| engine.is_exact() || measure != Measure::Chord)
+        let prunes = matches!(engine, Engine::RasterTransform | Engine::DelaunayDual);
+        self.threshold().filter(|&(measure, _)| !prunes || measure != Measure::Chord)
     }
 
     /// The chord residual, in cells of that size, that an engine on cells prunes by; the rest of pruning is

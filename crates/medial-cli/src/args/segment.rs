@@ -39,7 +39,7 @@ pub struct SegmentArgs {
     /// Write to FILE, as a TIFF image of 32 bits, the number of each pixel's region from 1 on; 0 for no data
     #[arg(long, value_name = "FILE")]
     pub labels: Option<PathBuf>,
-    /// Write to FILE the palette, the classes that the method found: the feature colours of feature_space, what lies
+    /// Write to FILE the palette, the classes that have a region: the feature colours of feature_space, what lies
     /// between thresholds, or near to each of colours; a table as csv, or for GIMP and others a file .gpl
     #[arg(long, value_name = "FILE")]
     pub palette: Option<PathBuf>,
@@ -64,10 +64,10 @@ pub struct Segmentation {
     #[arg(long, value_name = "N")]
     pub min_region: Option<u64>,
     /// The radius of mean_shift in the image, in pixels; by default 7
-    #[arg(long, value_name = "R", value_parser = positive)]
+    #[arg(long, value_name = "R", value_parser = positive, allow_negative_numbers = true)]
     pub spatial: Option<f64>,
     /// The radius of mean_shift among the values; by default 6.5
-    #[arg(long, value_name = "R", value_parser = positive)]
+    #[arg(long, value_name = "R", value_parser = positive, allow_negative_numbers = true)]
     pub range: Option<f64>,
     /// Limits of threshold, in increasing order, separated by commas: in units of the first band, or lightness from 0
     /// to 100 for colours
@@ -77,7 +77,7 @@ pub struct Segmentation {
     #[arg(long, value_name = "RRGGBB,…", value_delimiter = ',', value_parser = colour)]
     pub color: Vec<[u8; 3]>,
     /// How far from its colour a pixel of colours may be, in L*u*v*; by default 20
-    #[arg(long, value_name = "D", value_parser = positive)]
+    #[arg(long, value_name = "D", value_parser = positive, allow_negative_numbers = true)]
     pub color_tolerance: Option<f64>,
     /// Bands to look at, up to three, by their numbers from 1, separated by commas; by default the colours, or
     /// the first three

@@ -2,9 +2,10 @@
 
 use super::features::Run;
 use super::image::{Drawn, FORMATS, Painting, lines, several};
+use super::means::Means;
 use super::place::{box_ring, is_georeferenced};
 use super::records::{Found, Plan};
-use super::regions::{self, Parted, color};
+use super::regions::{self, Parted};
 use super::sink::title;
 use crate::args::{ImageArgs, ImageLayer};
 use crate::failure::{Failure, Status};
@@ -60,7 +61,7 @@ pub fn run(
     let layers = args.layers();
     let described = Described {
         objects: [objects, &objects_after],
-        are_bands: [before.are_bands, after.are_bands],
+        means: [before.means.clone(), after.means.clone()],
     };
     let parts = [
         (ImageLayer::Gained, Part::Gained),
@@ -132,8 +133,8 @@ fn check_alike(before: &Parted, after: &Parted) -> Result<(), Failure> {
             "the reference system is {crs}, that of {name} {other}; project one image into the system of the other"
         ));
     }
-    if before.are_bands != after.are_bands {
-        let kind = |parted: &Parted| if parted.are_bands { "bands" } else { "colours" };
+    if before.means.are_bands() != after.means.are_bands() {
+        let kind = |parted: &Parted| if parted.means.are_bands() { "bands" } else { "colours" };
         let (kind, other) = (kind(before), kind(after));
         return wrong(format_args!(
             "the image has {kind}, {name} {other}; compare two of a kind, or name bands of both with --bands"
@@ -161,7 +162,7 @@ fn uncompared(changes: &Changes, objects: [&Objects; 2], after: &Parted) -> Vec<
 /// The objects of both images.
 struct Described<'a> {
     objects: [&'a Objects; 2],
-    are_bands: [bool; 2],
+    means: [Means; 2],
 }
 
 impl Described<'_> {
@@ -184,10 +185,13 @@ impl Described<'_> {
         };
         let colour = |side: usize| {
             let object = [before, after][side];
-            object.map_or(Value::None, |object| color(object.whole.mean, self.are_bands[side]))
+            object.map_or(Value::None, |object| {
+                self.means[side].color(object.regions[0], object.whole.mean)
+            })
         };
         let pixels = |cells: u64| Value::from(cells as usize);
-        let distance = before.zip(after).map(|(a, b)| a.whole.distance(b.whole.mean));
+        let both = before.zip(after).filter(|_| !matches!(self.means[0], Means::Labels(_)));
+        let distance = both.map(|(a, b)| a.whole.distance(b.whole.mean));
         vec![
             name.into(),
             region(before),

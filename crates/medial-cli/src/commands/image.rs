@@ -1,9 +1,10 @@
 use super::axis::{dual, measured, traced};
 use super::changes;
 use super::features::Run;
-use super::place::{is_georeferenced, write_beside};
+use super::means::Means;
+use super::place::{check_beside, check_inputs, is_georeferenced, warn_of_stale, write_beside};
 use super::records::{Found, Plan};
-use super::regions::{self, Parted, color, means};
+use super::regions::{self, Parted};
 use super::sink::title;
 use crate::args::{
     ChosenEngine, Height, ImageArgs, ImageLayer, Line, Pruning, Region, Sides, Target,
@@ -25,6 +26,7 @@ use medial_io::svg::{LineStyle, Options, Overlay, OverlayLayer};
 use medial_io::{
     Crs, Drawing, Feature, Format, Layer, image, line_columns, line_records, png, point_record, svg,
 };
+use std::path::Path;
 use std::sync::Arc;
 
 /// Columns of what is written of a region, before those of lines.
@@ -52,11 +54,25 @@ pub fn run(args: &'static ImageArgs) -> Result<Status, Failure> {
     regions::check(&args.segmentation)?;
     let layers = args.layers();
     let format = checked_format(args, &layers)?;
+    let others = [
+        ("--labels", args.labels.as_deref()),
+        ("--report", args.run.run.report.as_deref()),
+        ("--timings", args.run.run.timings.as_deref()),
+    ];
+    check_beside(args.target.output.as_deref(), format, &others)?;
+    let segmentation = &args.segmentation;
+    check_inputs(&[
+        Some(&args.input),
+        args.compare.as_deref(),
+        segmentation.mask.as_deref(),
+        args.compare_mask.as_deref(),
+        args.choice.clicks.as_deref(),
+        args.compare_clicks.as_deref(),
+    ])?;
     let mut run = Run::new(kept(args.run.common()))?;
     run.knows_metric = false;
     let is_picture = matches!(format, Format::Svg | Format::Png);
     let labels = args.labels.as_deref().map(Output::beside).transpose()?;
-    let segmentation = &args.segmentation;
     let mask = segmentation.mask.as_deref();
     let parted = regions::parted(segmentation, &args.input, mask, &mut run, is_picture, None)?;
     let objects = timed(&mut run.stages.operations, || parted.chosen(&args.choice, None))?;
@@ -66,7 +82,7 @@ pub fn run(args: &'static ImageArgs) -> Result<Status, Failure> {
     if objects.all().is_empty() {
         return Err(parted.unchosen(None));
     }
-    let Parted { input, crs, are_bands, n_values, colours, .. } = parted;
+    let Parted { input, crs, means, colours, .. } = parted;
     let (grid, objects) = (*objects.grid(), Arc::new(objects));
     if let Some(output) = labels {
         timed(&mut run.stages.write, || {
@@ -104,8 +120,7 @@ pub fn run(args: &'static ImageArgs) -> Result<Status, Failure> {
             }),
             ..Drawing::default()
         },
-        are_bands,
-        n_values,
+        means,
         has_borders,
         measures: args.measures.clone(),
         objects,
@@ -193,6 +208,13 @@ fn checked_format(args: &'static ImageArgs, layers: &[ImageLayer]) -> Result<For
     if args.window.is_some() && !is_picture {
         return usage(format!("--window is for svg and png, not for {format}"));
     }
+    let has_values =
+        matches!(format.encoding(), Format::GeoJson | Format::GeoJsonLines | Format::Csv);
+    if !args.measures.is_empty() && !has_values {
+        return usage(format!(
+            "--measures is for geojson, geojsonl, csv and tables, not for {format}"
+        ));
+    }
     if args.z.is_some() && is_picture {
         return usage(format!("--z is not for {format}"));
     }
@@ -249,8 +271,7 @@ struct Drafter {
     region: Region,
     layers: Vec<ImageLayer>,
     drawing: Drawing,
-    are_bands: bool,
-    n_values: usize,
+    means: Means,
     measures: Vec<Measure>,
     /// Whether the polygons of objects are other ones than those of their pixels.
     has_borders: bool,
@@ -363,9 +384,9 @@ impl Drafter {
             regions.len().into(),
             (whole.cells as usize).into(),
             (whole.cells as f64 * (cell[0] * cell[1]).abs()).into(),
-            color(whole.mean, self.are_bands),
+            self.means.color(regions[0], whole.mean),
         ];
-        values.extend(means(whole.mean, self.n_values));
+        values.extend(self.means.told(regions[0], whole.mean));
         values.extend(record.values);
         Record { values, shape: record.shape }
     }
@@ -422,6 +443,7 @@ pub fn lines(shape: Shape) -> Vec<Vec<Point>> {
 /// A picture, and where it lies.
 struct Picture {
     bytes: Vec<u8>,
+    is_png: bool,
     /// The pixels of PNG in the plane of a georeference, and its reference system.
     place: Option<(Grid, Option<Crs>)>,
 }
@@ -431,11 +453,19 @@ impl Picture {
         std::mem::take(&mut self.bytes)
     }
 
+    /// The file of a PNG picture.
+    fn file(&self, args: &'static ImageArgs) -> Option<&'static Path> {
+        args.target.output.as_deref().filter(|_| self.is_png)
+    }
+
     /// Writes beside the file that was drawn where it lies, if it cannot tell it itself.
-    fn tell_place(&self, args: &ImageArgs) -> Result<(), Failure> {
+    fn tell_place(&self, args: &'static ImageArgs) -> Result<(), Failure> {
         match &self.place {
             Some((grid, crs)) => write_beside(args.target.output.as_deref(), grid, crs.as_ref()),
-            None => Ok(()),
+            None => {
+                warn_of_stale(self.file(args), args.run.run.quiet);
+                Ok(())
+            }
         }
     }
 }
@@ -467,12 +497,16 @@ fn picture(
     let options = Options { title, ..Options::default() };
     if format == Format::Svg {
         let bytes = svg::write_overlay(&overlay, &options).into_bytes();
-        return Ok(Picture { bytes, place: None });
+        return Ok(Picture { bytes, is_png: false, place: None });
     }
     let bytes = png::write_overlay(&overlay, &options);
     let bytes = bytes.map_err(|error| Failure::file("<picture>", error))?;
     let grid = png::overlay_grid(&overlay, &options);
-    Ok(Picture { bytes, place: overlay.is_georeferenced.then_some((grid, overlay.crs)) })
+    Ok(Picture {
+        bytes,
+        is_png: true,
+        place: overlay.is_georeferenced.then_some((grid, overlay.crs)),
+    })
 }
 
 fn overlay_layer(layer: ImageLayer) -> OverlayLayer {

@@ -10,6 +10,7 @@ pub mod compress;
 mod features;
 pub mod image;
 pub mod locate;
+mod means;
 pub mod offset;
 mod pixels;
 mod place;

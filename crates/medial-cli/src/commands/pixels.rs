@@ -4,6 +4,7 @@ use crate::args::{SegmentMethod, Segmentation};
 use crate::failure::Failure;
 use crate::guard::guarded;
 use crate::input::Input;
+use crate::output::reads;
 use medial::raster::Mask;
 use medial_io::image::{self, Numbers, WorldFile};
 use medial_io::{Content, Error, Format, ReadOptions};
@@ -12,8 +13,8 @@ use std::path::Path;
 /// Pixels of an image: colours, bands, or numbers of labels.
 pub struct Pixels {
     pub colours: image::Colours,
-    /// The numbers of labels.
-    pub numbers: Option<Vec<f64>>,
+    /// The numbers of labels, and whether they stand for colours.
+    pub numbers: Option<(Vec<f64>, bool)>,
 }
 
 impl Pixels {
@@ -27,6 +28,10 @@ impl Pixels {
     ) -> Result<Self, Failure> {
         let format = format_of(from, path, input)?;
         let world = WorldFile::of(path).map_err(|error| input.wrong(error))?;
+        // Nothing that is told takes its place.
+        if let Some((name, _)) = &world.world {
+            reads(Path::new(name))?;
+        }
         let bands: Vec<usize> = args.bands.iter().map(|band| band.get()).collect();
         let mut pixels = match args.method {
             SegmentMethod::Labels => {
@@ -54,7 +59,7 @@ impl Pixels {
 
     /// Numbers of labels stand for the first band.
     fn of_numbers(read: Numbers) -> Self {
-        let Numbers { grid, crs, values, warnings } = read;
+        let Numbers { grid, crs, values, are_colours, warnings } = read;
         let value = |&number: &f64| [number as f32, 0.0, 0.0];
         let colours = image::Colours {
             grid,
@@ -64,14 +69,14 @@ impl Pixels {
             n_bands: 1,
             warnings,
         };
-        Self { colours, numbers: Some(values) }
+        Self { colours, numbers: Some((values, are_colours)) }
     }
 
     /// Leaves out what has the value for no data.
     fn leave_out_value(&mut self, value: &str) -> Result<(), Failure> {
         let wrong = |what: &str| Failure::Usage(format!("--no-data {value} is no {what}"));
         let image::Colours { values, are_bands, n_bands, .. } = &mut self.colours;
-        if let Some(numbers) = &self.numbers {
+        if let Some((numbers, _)) = &self.numbers {
             let number: f64 = value.parse().map_err(|_| wrong("number, as labels have"))?;
             let same = values.iter_mut().zip(numbers).filter(|(_, other)| **other == number);
             same.for_each(|(value, _)| *value = [f32::NAN; 3]);

@@ -4,7 +4,7 @@ use crate::failure::Failure;
 use crate::output::Output;
 use medial::geom::Point;
 use medial::raster::Grid;
-use medial_io::{Crs, image};
+use medial_io::{Crs, Format, image};
 use std::fs;
 use std::path::Path;
 
@@ -41,5 +41,47 @@ pub fn write_beside(picture: Option<&Path>, grid: &Grid, crs: Option<&Crs>) -> R
     match crs.and_then(Crs::first_wkt) {
         Some(wkt) => write("prj", &wkt),
         None => Ok(()),
+    }
+}
+
+/// Fails if a file that is written besides has no name of its own: it is standard output, or one that comes beside a
+/// picture.
+pub fn check_beside(
+    results: Option<&Path>,
+    format: Format,
+    others: &[(&str, Option<&Path>)],
+) -> Result<(), Failure> {
+    for &(option, path) in others {
+        let Some(path) = path else { continue };
+        let is_beside = |extension: &str| {
+            let picture = results.filter(|_| format == Format::Png);
+            picture.is_some_and(|picture| picture.with_extension(extension) == path)
+        };
+        if path.as_os_str() == "-" && option != "--report" && option != "--timings"
+            || ["pgw", "prj"].into_iter().any(is_beside)
+        {
+            return Err(Failure::Usage(format!("{option} needs a file of its own")));
+        }
+    }
+    Ok(())
+}
+
+/// Fails if standard input is named for two files.
+pub fn check_inputs(inputs: &[Option<&Path>]) -> Result<(), Failure> {
+    let n = inputs.iter().flatten().filter(|path| path.as_os_str() == "-").count();
+    if n > 1 {
+        return Err(Failure::Usage("standard input is named twice; name a file".to_owned()));
+    }
+    Ok(())
+}
+
+/// Says what stands beside a picture without a place and gives it one, as a picture before it had.
+pub fn warn_of_stale(picture: Option<&Path>, quiet: bool) {
+    let stale = picture.map(|picture| picture.with_extension("pgw")).filter(|path| path.exists());
+    if let Some(stale) = stale.filter(|_| !quiet) {
+        let name = stale.display();
+        crate::progress::line(&format!(
+            "warning: {name} was there before and says that the picture lies elsewhere; remove it"
+        ));
     }
 }

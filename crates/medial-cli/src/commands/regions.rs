@@ -1,6 +1,7 @@
 //! Regions of colour images, as all commands on them find and choose them.
 
 use super::features::Run;
+use super::means::{Means, Numbers};
 use super::pixels::Pixels;
 use crate::args::{Choice, SegmentMethod, Segmentation};
 use crate::failure::Failure;
@@ -10,13 +11,13 @@ use crate::progress::{Progress, Steps};
 use crate::timings::timed;
 use medial_image::{
     Action, Analysis, Click, Field, Filter, Labels, Objects, Region, Selection, feature_space, luv,
-    mean_shift_with, near_colours, srgb, thresholds, thresholds_of,
+    mean_shift_with, near_colours, thresholds, thresholds_of,
 };
 use medial_io::clicks::{self, ClickRow};
-use medial_io::record::Value;
 use medial_io::{Crs, image};
 use std::num::NonZeroUsize;
 use std::path::Path;
+use std::sync::Arc;
 use std::sync::mpsc::{self, RecvTimeoutError};
 use std::thread;
 use std::time::Duration;
@@ -25,12 +26,8 @@ use std::time::Duration;
 pub struct Parted {
     pub input: Input,
     pub crs: Option<Crs>,
-    /// Whether what it has are bands, and no colours.
-    pub are_bands: bool,
-    /// How many of the three means say something.
-    pub n_values: usize,
-    /// Whether its regions are those of an image of labels.
-    are_given: bool,
+    /// What the means of its regions are.
+    pub means: Means,
     /// The values of bands that became 0 and 100.
     extents: [[f32; 2]; 3],
     pub labels: Labels,
@@ -75,12 +72,23 @@ pub fn parted(
     })
     .map_err(|error| input.wrong(error))?;
     let extents = beside.map_or(own, |other| other.extents);
-    let are_given = numbers.is_some();
-    let field = if are_bands && !are_given { field.stretched(extents) } else { field };
-    let colours = match (keeps_colours, are_bands) {
-        (true, true) if are_given => greys(&field.clone().stretched(extents)),
-        (true, true) => greys(&field),
-        _ => kept,
+    let field = if are_bands && numbers.is_none() { field.stretched(extents) } else { field };
+    let known = |(numbers, are_colours): (Vec<f64>, bool)| {
+        let number = |(k, number)| if field.is_known(k) { number } else { f64::NAN };
+        (numbers.into_iter().enumerate().map(number).collect::<Vec<f64>>(), are_colours)
+    };
+    let numbers = numbers.map(known);
+    let colours = match &numbers {
+        _ if !keeps_colours => Vec::new(),
+        Some((numbers, are_colours)) => {
+            let colours = Numbers { of: Vec::new(), are_colours: *are_colours };
+            numbers.iter().map(|&number| colours.colour(number)).collect()
+        }
+        None if are_bands => {
+            let bands = Means::Bands(n_bands);
+            field.values().iter().map(|&value| bands.shown(0, value)).collect()
+        }
+        None => kept,
     };
     let threads = run.all_threads();
     let what = "parting the image";
@@ -92,13 +100,22 @@ pub fn parted(
     let steps = progress.steps();
     let found = timed(&mut run.stages.engine, || {
         within(common.run.limit(), move || {
-            let labels = labels(args, &field, band.as_deref(), numbers, threads, &steps);
+            let (labels, means) = match numbers {
+                Some((numbers, are_colours)) => {
+                    let (labels, of) = Labels::given(*field.grid(), &numbers);
+                    (labels, Means::Labels(Arc::new(Numbers { of, are_colours })))
+                }
+                None => {
+                    let means = if are_bands { Means::Bands(n_bands) } else { Means::Colours };
+                    (labels(args, &field, band.as_deref(), threads, &steps), means)
+                }
+            };
             let regions = labels.regions(&field);
-            (labels, regions)
+            (labels, means, regions)
         })
     });
     progress.finish();
-    let (labels, regions) = match found.map_err(|panic| input.wrong(panic))? {
+    let (labels, means, regions) = match found.map_err(|panic| input.wrong(panic))? {
         Some(found) => found,
         None => {
             let why = "takes longer to be parted into regions than --max-seconds allows; give it more, or a smaller image";
@@ -108,13 +125,7 @@ pub fn parted(
     if labels.is_empty() {
         return Err(input.wrong("has no pixel with data; there is nothing to part"));
     }
-    let n_values = if are_bands { n_bands } else { 3 };
-    Ok(Parted { input, crs, are_bands, n_values, are_given, extents, labels, regions, colours })
-}
-
-/// The pixels of bands in colours, of which they have none.
-fn greys(field: &Field) -> Vec<[f32; 3]> {
-    field.values().iter().map(|&value| shown(value, true)).collect()
+    Ok(Parted { input, crs, means, extents, labels, regions, colours })
 }
 
 /// What to say of a limit that has all values on one side.
@@ -146,16 +157,21 @@ impl Parted {
     pub fn chosen(&self, choice: &Choice, instead: Option<&Path>) -> Result<Objects, Failure> {
         let Choice { min_pixels, max_pixels, select_color, select_tolerance, .. } = choice;
         let has_filter = min_pixels.is_some() || max_pixels.is_some() || !select_color.is_empty();
-        if self.are_bands && !select_color.is_empty() {
+        if self.means.are_bands() && !select_color.is_empty() {
             let why = "has bands that are no colours; choose regions by their size or by points";
             return Err(self.input.wrong(why));
         }
         let colours: Vec<[f32; 3]> = select_color.iter().map(|&colour| of_bytes(colour)).collect();
         let near = select_tolerance.unwrap_or(TOLERANCE) as f32;
         let pixels = min_pixels.unwrap_or(0)..=max_pixels.unwrap_or(u64::MAX);
-        let is_asked = |region: &Region| {
+        let is_asked = |number: u32, region: &Region| {
             // The number 0 of labels is the ground.
-            let is_ground = self.are_given && region.mean[0] == 0.0;
+            let is_ground = match &self.means {
+                Means::Labels(numbers) => {
+                    !numbers.are_colours && numbers.of[number as usize] == 0.0
+                }
+                _ => false,
+            };
             !is_ground
                 && pixels.contains(&region.cells)
                 && (colours.is_empty() || colours.iter().any(|&c| region.distance(c) <= near))
@@ -167,7 +183,7 @@ impl Parted {
         let begins_empty =
             !has_filter && clicks.first().is_some_and(|(_, click)| click.action != Action::Remove);
         let numbered = (0..).zip(&self.regions);
-        let all = numbered.filter(|(_, region)| !begins_empty && is_asked(region));
+        let all = numbered.filter(|&(number, region)| !begins_empty && is_asked(number, region));
         let mut chosen = Selection::of(all.map(|(number, _)| number));
         for (place, click) in clicks {
             chosen
@@ -218,27 +234,6 @@ fn clicks_of(path: &Path) -> Result<Vec<(String, Click)>, Failure> {
     rows.into_iter().map(click).collect()
 }
 
-/// The colour in which values are shown, of red, green and blue from 0 to 1: bands have none, theirs is grey.
-pub fn shown(values: [f32; 3], are_bands: bool) -> [f32; 3] {
-    if are_bands { [values[0] / 100.0; 3] } else { srgb(values) }
-}
-
-/// The same from 0 to 255.
-pub fn bytes(values: [f32; 3], are_bands: bool) -> [u8; 3] {
-    shown(values, are_bands).map(|v| (255.0 * v.clamp(0.0, 1.0)).round() as u8)
-}
-
-/// That colour as text.
-pub fn color(values: [f32; 3], are_bands: bool) -> Value {
-    let [red, green, blue] = bytes(values, are_bands);
-    Value::Text(format!("#{red:02x}{green:02x}{blue:02x}"))
-}
-
-/// The means that say something.
-pub fn means(means: [f32; 3], n_values: usize) -> [Value; 3] {
-    [0, 1, 2].map(|k| if k < n_values { Value::from(f64::from(means[k])) } else { Value::None })
-}
-
 fn of_bytes(colour: [u8; 3]) -> [f32; 3] {
     luv(colour.map(|value| f32::from(value) / 255.0))
 }
@@ -284,7 +279,6 @@ fn labels(
     args: &Segmentation,
     field: &Field,
     band: Option<&[f32]>,
-    numbers: Option<Vec<f64>>,
     threads: NonZeroUsize,
     steps: &Steps,
 ) -> Labels {
@@ -318,11 +312,7 @@ fn labels(
             let distance = args.color_tolerance.unwrap_or(TOLERANCE) as f32;
             near_colours(field, &colours, distance, min_region)
         }
-        SegmentMethod::Labels => {
-            let mut numbers = numbers.unwrap_or_default();
-            let unknown = numbers.iter_mut().enumerate().filter(|(k, _)| !field.is_known(*k));
-            unknown.for_each(|(_, number)| *number = f64::NAN);
-            Labels::given(*field.grid(), &numbers)
-        }
+        // Its regions are given.
+        SegmentMethod::Labels => thresholds(field, &[], 1),
     }
 }

@@ -1,7 +1,10 @@
 use super::features::Run;
-use super::place::{box_ring, is_georeferenced, write_beside};
+use super::means::Means;
+use super::place::{
+    box_ring, check_beside, check_inputs, is_georeferenced, warn_of_stale, write_beside,
+};
 use super::records::{Found, POLYGONS, Plan};
-use super::regions::{self, Parted, bytes, color, means, shown};
+use super::regions::{self, Parted};
 use crate::args::{SegmentArgs, SegmentMethod};
 use crate::failure::{Failure, Status};
 use crate::output::Output;
@@ -11,6 +14,7 @@ use medial_image::{Class, Object, Objects, Selection};
 use medial_io::image::{self, PaletteColour};
 use medial_io::record::{self, Record, Shape, Value};
 use medial_io::{Feature, Format, Layer};
+use std::ffi::OsStr;
 use std::io::IsTerminal as _;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -44,6 +48,14 @@ pub fn run(args: &'static SegmentArgs) -> Result<Status, Failure> {
     let is_picture = plan.asked()? == Format::Png;
     let format = if is_picture { Format::Png } else { plan.format()? };
     let file = args.target.output.as_deref().filter(|path| path.as_os_str() != "-");
+    let others = [
+        ("--labels", args.labels.as_deref()),
+        ("--palette", args.palette.as_deref()),
+        ("--report", args.run.run.report.as_deref()),
+        ("--timings", args.run.run.timings.as_deref()),
+    ];
+    check_beside(file, format, &others)?;
+    check_inputs(&[Some(&args.input), args.segmentation.mask.as_deref()])?;
     if is_picture && file.is_none() && std::io::stdout().is_terminal() {
         return Err(Failure::Usage("a terminal shows no png; name a file with -o".to_owned()));
     }
@@ -52,13 +64,22 @@ pub fn run(args: &'static SegmentArgs) -> Result<Status, Failure> {
     let segmentation = &args.segmentation;
     let has_classes =
         !matches!(segmentation.method, SegmentMethod::MeanShift | SegmentMethod::Labels);
+    let is_known = |path: &PathBuf| {
+        let known =
+            |extension: &OsStr| ["csv", "gpl"].iter().any(|e| extension.eq_ignore_ascii_case(e));
+        path.extension().is_none_or(known)
+    };
+    if !args.palette.iter().all(is_known) {
+        let why = "--palette writes csv and gpl; the extension is another one";
+        return Err(Failure::Usage(why.to_owned()));
+    }
     if palette.is_some() && !has_classes {
         let why = "--palette is for methods with classes: feature_space, threshold, colours";
         return Err(Failure::Usage(why.to_owned()));
     }
     let mask = segmentation.mask.as_deref();
     let parted = regions::parted(segmentation, &args.input, mask, &mut run, false, None)?;
-    let Parted { input, crs, are_bands, n_values, labels, regions, .. } = parted;
+    let Parted { input, crs, means, labels, regions, .. } = parted;
     let grid = *labels.grid();
     if let Some(output) = numbers {
         let numbers: Vec<u32> = labels.labels().iter().map(|label| label.wrapping_add(1)).collect();
@@ -66,13 +87,13 @@ pub fn run(args: &'static SegmentArgs) -> Result<Status, Failure> {
         timed(&mut run.stages.write, || output.whole(&bytes))?;
     }
     if let Some(output) = palette {
-        let text = palette_text(args, &labels.classes(&regions), are_bands, n_values);
+        let text = palette_text(args, &labels.classes(&regions), &means);
         timed(&mut run.stages.write, || output.whole(text.as_bytes()))?;
     }
     if is_picture {
         let of = |&label: &u32| {
             let region = regions.get(label as usize);
-            region.map_or([f32::NAN; 3], |region| shown(region.mean, are_bands))
+            region.map_or([f32::NAN; 3], |region| means.shown(label, region.mean))
         };
         let pixels: Vec<[f32; 3]> = labels.labels().iter().map(of).collect();
         let bytes = image::write_colours(grid.columns, grid.rows, &pixels);
@@ -80,7 +101,10 @@ pub fn run(args: &'static SegmentArgs) -> Result<Status, Failure> {
             Output::create(file)?.whole(&bytes)?;
             match is_georeferenced(&grid, crs.as_ref()) {
                 true => write_beside(file, &grid, crs.as_ref()),
-                false => Ok(()),
+                false => {
+                    warn_of_stale(file, args.run.run.quiet);
+                    Ok(())
+                }
             }
         })?;
         return run.done(&input.name, regions.len());
@@ -108,8 +132,8 @@ pub fn run(args: &'static SegmentArgs) -> Result<Status, Failure> {
                 polygons.len().into(),
                 (n_rings - polygons.len()).into(),
             ];
-            values.extend(means(object.whole.mean, n_values));
-            values.push(color(object.whole.mean, are_bands));
+            values.extend(means.told(number, object.whole.mean));
+            values.push(means.color(number, object.whole.mean));
             values.push(if has_classes { class_of[number as usize].into() } else { Value::None });
             let record = Record { values, shape: Shape::Polygons(polygons) };
             Ok(timed(&mut stages.write, || {
@@ -123,12 +147,12 @@ pub fn run(args: &'static SegmentArgs) -> Result<Status, Failure> {
 }
 
 /// The palette as its file is to have it.
-fn palette_text(args: &SegmentArgs, classes: &[Class], are_bands: bool, n_means: usize) -> String {
+fn palette_text(args: &SegmentArgs, classes: &[Class], means: &Means) -> String {
     let colour = |class: &Class| PaletteColour {
         class: class.number,
-        colour: bytes(class.whole.mean, are_bands),
+        colour: means.bytes(0, class.whole.mean),
         means: class.whole.mean,
-        n_means,
+        n_means: means.len(),
         pixels: class.whole.cells,
         regions: class.regions,
     };

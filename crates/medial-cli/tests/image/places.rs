@@ -132,6 +132,17 @@ fn files_beside_an_image_say_where_it_lies() {
     // And its mask.
     let run = medial(&["axis", &scene, "--prune", "none", "--to", "wkt"]);
     assert!(run.text().contains("(103 47, 105 47)"), "{}", run.text());
+    // Nothing takes the place of a file that says where an image lies.
+    let world = beside("scene.pgw").to_str().unwrap().to_owned();
+    let run = medial(&["segment", &scene, "--labels", &world, "--to", "csv"]);
+    assert_eq!(run.status, Some(2), "{}", run.errors);
+    assert!(run.errors.contains("is the input"), "{}", run.errors);
+    // Left beside a picture without a place it is told.
+    let other = picture(folder.path(), "other.png", &["....", ".rr.", "...."]);
+    let run = medial(&["segment", &scene, "-q", "-o", beside("drawn.png").to_str().unwrap()]);
+    assert_eq!((run.status, run.errors.as_str()), (Some(0), ""));
+    let run = medial(&["segment", &other, "-o", beside("drawn.png").to_str().unwrap()]);
+    assert!(run.errors.contains("drawn.pgw was there before and says"), "{}", run.errors);
     // A place of its own comes first.
     let tiff = beside("scene.tif");
     geotiff(&tiff, &["....", ".rr.", "...."], 32633);
@@ -141,12 +152,13 @@ fn files_beside_an_image_say_where_it_lies() {
     for (text, why) in [
         ("2\n0\n0\n-2\n101\n", "begins with 5 numbers, not with six"),
         ("2\n0.5\n0\n-2\n101\n49\n", "turns the image; warp it first"),
+        ("1e-9\n0\n0\n-1e-9\n431000\n0\n", "are too small for coordinates up to 431000"),
     ] {
         fs::write(beside("scene.pgw"), text).unwrap();
         for command in ["axis", "segment", "image"] {
             let run = medial(&[command, &scene]);
             assert_eq!((run.status, run.text()), (Some(1), ""));
-            assert!(run.errors.contains("scene.pgw") && run.errors.contains(why), "{}", run.errors);
+            assert!(run.errors.contains("scene.p") && run.errors.contains(why), "{}", run.errors);
         }
     }
 }

@@ -85,9 +85,30 @@ impl Header {
             Some(Place { origin, cell, crs }) => (Grid { origin, cell, columns, rows }, crs),
             None => (Grid::of_image(columns, rows), None),
         };
+        if let Some(why) = coarse(&grid) {
+            return Err(Error::File { why });
+        }
         let mask = Mask::empty(grid).map_err(|error| Error::File { why: error.to_string() })?;
         Ok((mask, crs))
     }
+}
+
+/// Why coordinates do not tell parts of pixels apart, if they do not.
+fn coarse(grid: &Grid) -> Option<String> {
+    /// Numbers between one side of a pixel and the other.
+    const LEAST: f64 = 1024.0;
+    let ends = [grid.corner(0, 0), grid.corner(grid.columns, grid.rows)];
+    let greatest =
+        |of: fn(Point) -> f64| ends.map(of).map(f64::abs).into_iter().fold(0.0, f64::max);
+    let reach = [greatest(|p| p.x), greatest(|p| p.y)];
+    let pairs = reach.into_iter().zip(grid.cell.map(f64::abs));
+    let mut fine = pairs.filter(|&(reach, cell)| cell < LEAST * f64::EPSILON * reach);
+    fine.next().map(|(reach, cell)| {
+        format!(
+            "pixels of {cell} are too small for coordinates up to {reach}, of which doubles have too few between them; \
+             move the origin nearer"
+        )
+    })
 }
 
 /// Values of pixels.
@@ -328,6 +349,8 @@ pub struct Numbers {
     /// Row by row, the numbers of the only band, or of a colour that of its three bytes; not numbers where there is no
     /// data or the image is transparent.
     pub values: Vec<f64>,
+    /// Whether they stand for colours.
+    pub are_colours: bool,
     /// What the image says that is not used.
     pub warnings: Vec<String>,
 }
@@ -336,7 +359,7 @@ pub struct Numbers {
 /// colour.
 ///
 /// # Errors
-/// As [`read_mask`], and if the image has several bands that are no colours.
+/// As [`read_mask`], and if the image has several bands that are no colours, or numbers that doubles do not tell apart.
 pub fn read_numbers(format: Format, bytes: &[u8], world: &WorldFile) -> Result<Numbers, Error> {
     let image = open(format, bytes)?;
     let Header { columns, rows, n_bands, is_colour, warnings, .. } = image.header().clone();
@@ -364,7 +387,14 @@ pub fn read_numbers(format: Format, bytes: &[u8], world: &WorldFile) -> Result<N
         let why = format!("the image has {} values for {columns} by {rows} pixels", values.len());
         return Err(Error::File { why });
     }
-    Ok(Numbers { grid, crs, values, warnings })
+    const MOST: f64 = (1_u64 << 53) as f64;
+    if let Some(large) = values.iter().find(|number| number.abs() >= MOST) {
+        let why = format!(
+            "the number {large} is too large to be told from the next one; number the labels anew, below 2^53"
+        );
+        return Err(Error::File { why });
+    }
+    Ok(Numbers { grid, crs, values, are_colours: n_bands > 1, warnings })
 }
 
 /// What to do about colours of 16 bits that are all nearly black, as 10 or 12 bits are that were not stretched.

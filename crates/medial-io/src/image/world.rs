@@ -55,12 +55,16 @@ impl WorldFile {
     pub(super) fn place(&self) -> Result<Option<Place>, Error> {
         let Some((name, text)) = &self.world else { return Ok(None) };
         let wrong = |why: String| Error::File { why: format!("its world file {name} {why}") };
-        let numbers: Vec<f64> =
-            text.split_whitespace().map_while(|word| word.parse().ok()).take(6).collect();
+        let numbers: Vec<f64> = text
+            .trim_start_matches('\u{feff}')
+            .split_whitespace()
+            .map_while(|word| word.parse().ok())
+            .take(6)
+            .collect();
         let &[width, a, b, height, x, y] = &numbers[..] else {
             let n = numbers.len();
             return Err(wrong(format!(
-                "begins with {n} numbers, not with six; remove it, or write it again"
+                "begins with {n} numbers, not with six with points, not commas; remove it, or write it again"
             )));
         };
         if numbers.iter().any(|number| !number.is_finite()) || width == 0.0 || height == 0.0 {
@@ -116,13 +120,17 @@ mod tests {
         let grid = Grid { origin: Point::new(100.0, 50.0), cell: [2.0, -4.0], columns: 3, rows: 4 };
         let read = place(&world_file(&grid)).unwrap().unwrap();
         assert_eq!((read.origin, read.cell), (grid.origin, grid.cell));
+        let marked = format!("\u{feff}{}", world_file(&grid).replace('\n', "\r\n"));
+        assert_eq!(place(&marked).unwrap().unwrap().origin, grid.origin);
         assert!(WorldFile::default().place().unwrap().is_none());
     }
 
     #[test]
     fn what_is_no_place_is_told() {
         let told = |text: &str| place(text).unwrap_err().to_string();
-        assert!(told("1 0 0 -1 3").contains("a.pgw begins with 5 numbers, not with six"));
+        assert!(
+            told("1 0 0 -1 3").contains("a.pgw begins with 5 numbers, not with six with points")
+        );
         assert!(told("1\n0.1\n0\n-1\n3\n4\n").contains("turns the image"));
         assert!(told("0 0 0 -1 3 4").contains("without a finite size"));
         assert!(told("1 0 0 -1 inf 4").contains("without a finite size"));

@@ -1,8 +1,8 @@
 use super::context::Context;
 use super::verdict::{Counts, Identity, Relation};
 use crate::axis::{Accuracy, KeypointKind};
-use crate::domain::Corner;
-use crate::geom::{DisjointSets, Point, order_key};
+use crate::domain::{Corner, Domain};
+use crate::geom::{DisjointSets, Point, dot_directions, order_key, orient2d};
 
 /// Counts what there is on the domain and on the axis.
 pub(super) fn counts(context: &Context) -> Counts {
@@ -150,22 +150,29 @@ fn n_without(context: &Context) -> usize {
     usize::from(context.horizon.is_some() && context.n_gaps() == 0)
 }
 
-/// Walks and components if parts are one that touch in points with a corner of less than half a turn each, where the
-/// axis has as many components and cycles: it may go through such a point from one corner to the other.
+/// Walks and components if parts are one that touch in points with a corner of less than half a turn each, and share no
+/// edge there, where the axis has as many components and cycles: it may go through such a point from one corner to the
+/// other.
 fn through_corners(context: &Context, counts: &Counts) -> Option<(i64, i64)> {
     let domain = context.domain;
-    let mut corners: Vec<(Point, u32)> = context
-        .walks()
-        .flat_map(|(_, walk)| walk.edges().map(|edge| (edge, walk.component)))
-        .filter(|&(edge, _)| domain.edge(edge).corner == Corner::Convex)
-        .map(|(edge, component)| (domain.edge(edge).start, component))
-        .collect();
-    corners.sort_by_key(|(p, _)| (order_key(p.x), order_key(p.y)));
+    let all = context.walks().flat_map(|(_, walk)| walk.edges());
+    let mut corners: Vec<u32> = all.collect();
+    let at = |&edge: &u32| domain.edge(edge).start;
+    corners.sort_by_key(|edge| (order_key(at(edge).x), order_key(at(edge).y)));
     let mut groups = DisjointSets::new(domain.n_components());
     let mut shared = 0;
-    for pair in corners.windows(2).filter(|pair| pair[0].0 == pair[1].0) {
-        shared += 1;
-        groups.join(pair[0].1, pair[1].1);
+    for together in corners.chunk_by(|a, b| at(a) == at(b)).filter(|corners| corners.len() > 1) {
+        let share = |&edge: &u32| together.iter().any(|&other| runs_back(domain, edge, other));
+        if together.iter().any(share) {
+            continue;
+        }
+        let convex = |edge: &&u32| domain.edge(**edge).corner == Corner::Convex;
+        let component = |edge: &u32| domain.walks()[domain.edge(*edge).walk as usize].component;
+        let convex: Vec<u32> = together.iter().filter(convex).map(component).collect();
+        for pair in convex.windows(2) {
+            shared += 1;
+            groups.join(pair[0], pair[1]);
+        }
     }
     // Each of these points joins components or closes a cycle.
     let components = groups.count() as i64;
@@ -173,6 +180,13 @@ fn through_corners(context: &Context, counts: &Counts) -> Option<(i64, i64)> {
     let found = (counts.axis_components + n_without(context)) as i64;
     let fits = found == components && counts.cycles as i64 == cycles;
     (shared > 0 && fits).then_some((components + cycles, components))
+}
+
+/// Whether an edge lies, where it starts, on the edge before another one that starts there.
+fn runs_back(domain: &Domain, edge: u32, other: u32) -> bool {
+    let (start, end) = (domain.edge(edge).start, domain.end(edge));
+    let before = domain.edge(domain.edge(other).prev).start;
+    orient2d(start, end, before) == 0.0 && dot_directions(start, end, start, before) > 0.0
 }
 
 /// Joints of sites whose common normal goes to infinity, at the ends of edges on the hull.

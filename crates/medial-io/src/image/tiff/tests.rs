@@ -253,6 +253,10 @@ fn numbers_of_labels_are_exact() {
     let read = read_numbers(Format::Tiff, &labels, &WorldFile::default()).unwrap();
     assert_eq!(read.values[..2], [0.0, 16_777_217.0]);
     assert!(read.values[2].is_nan());
+    let large =
+        file(1, 1, 1, 64, &9_007_199_254_740_993_u64.to_le_bytes(), vec![(262, Short(vec![1]))]);
+    let error = read_numbers(Format::Tiff, &large, &WorldFile::default()).unwrap_err().to_string();
+    assert!(error.contains("too large to be told from the next one"), "{error}");
     let two = file(1, 1, 2, 8, &[1, 2], vec![(262, Short(vec![1])), (338, Short(vec![0]))]);
     let error = read_numbers(Format::Tiff, &two, &WorldFile::default()).unwrap_err().to_string();
     assert!(error.contains("2 bands; labels need an image of one, or of colours"), "{error}");

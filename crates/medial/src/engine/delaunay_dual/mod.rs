@@ -252,6 +252,8 @@ impl<'a> DelaunayDual<'a> {
         let size = mask.grid().cell_size();
         let mut spacing = options.spacing.unwrap_or(MASK_SPACING * size);
         let mut samples = Samples::of_cracks(&mask.bits, &cracks, plane.factors(), spacing / size)?;
+        // However dense they are, samples cut off corners of cells, which are up to a third of a cell away.
+        spacing = spacing.max(MASK_SPACING * size);
         let source = Source::Mask(mask, Box::new(cracks));
         if width <= 0.0 {
             let graph = graph_of(&samples, &plane, &watch)?;
