@@ -603,6 +603,37 @@ fn polygons_that_share_an_edge_are_pieces_of_their_own() {
 }
 
 #[test]
+fn the_axes_of_triangles_that_touch_in_any_way_have_no_defect() {
+    let mut n_domains = 0;
+    for seed in 0..400 {
+        let mut random = Random(seed);
+        let mut corner = || Point::new(random.below(5) as f64, random.below(5) as f64);
+        let triangle = |_: u32| vec![vec![corner(), corner(), corner()]];
+        let mut polygons: Vec<_> = (0..12).map(triangle).collect();
+        // As many as do not overlap: only what validates as it stands.
+        let options = medial::domain::Options { repair: false, ..Default::default() };
+        let mut domain = None;
+        let mut kept = Vec::new();
+        for polygon in polygons.drain(..) {
+            kept.push(polygon);
+            match Domain::from_polygons(&kept, &options) {
+                Ok(found) => domain = Some(found),
+                Err(_) => drop(kept.pop()),
+            }
+        }
+        let Some(domain) = domain.filter(|domain| domain.n_components() > 1) else { continue };
+        n_domains += 1;
+        for spacing in [1.0, 0.3, 0.11] {
+            let options = Options { spacing: Some(spacing), ..Options::default() };
+            let dual = DelaunayDual::new(&domain, &options).unwrap();
+            let axis = dual.axis(DualPruning::Nothing).unwrap();
+            assert_eq!(defects(&domain, &axis).defects, [], "{seed} {spacing}: {kept:?}");
+        }
+    }
+    assert!(n_domains > 200, "{n_domains}");
+}
+
+#[test]
 fn no_path_of_an_axis_has_no_length() {
     let options = Options::default();
     for seed in 0..60 {

@@ -2,7 +2,10 @@ use super::axis::{dual, measured, traced};
 use super::changes;
 use super::features::Run;
 use super::means::Means;
-use super::place::{check_beside, check_inputs, is_georeferenced, warn_of_stale, write_beside};
+use super::place::{
+    TIFF, check_beside, check_extension, check_inputs, is_georeferenced, warn_of_stale,
+    write_beside,
+};
 use super::records::{Found, Plan};
 use super::regions::{self, Parted};
 use super::sink::title;
@@ -60,6 +63,7 @@ pub fn run(args: &'static ImageArgs) -> Result<Status, Failure> {
         ("--timings", args.run.run.timings.as_deref()),
     ];
     check_beside(args.target.output.as_deref(), format, &others)?;
+    check_extension("--labels", args.labels.as_deref(), TIFF)?;
     let segmentation = &args.segmentation;
     check_inputs(&[
         Some(&args.input),

@@ -5,6 +5,7 @@ use crate::output::Output;
 use medial::geom::Point;
 use medial::raster::Grid;
 use medial_io::{Crs, Format, image};
+use std::ffi::OsStr;
 use std::fs;
 use std::path::Path;
 
@@ -64,6 +65,23 @@ pub fn check_beside(
         }
     }
     Ok(())
+}
+
+/// Extensions of the files that labels are written to.
+pub const TIFF: &[&str] = &["tif", "tiff"];
+
+/// Fails if a file has an extension that is none of those of what is written to it.
+pub fn check_extension(option: &str, path: Option<&Path>, known: &[&str]) -> Result<(), Failure> {
+    let extension = path.and_then(Path::extension);
+    let is_known =
+        |extension: &OsStr| known.iter().any(|known| extension.eq_ignore_ascii_case(known));
+    match extension.filter(|extension| !is_known(extension)) {
+        None => Ok(()),
+        Some(other) => {
+            let (names, other) = (known.join(" and ."), other.display());
+            Err(Failure::Usage(format!("{option} writes files .{names}, not .{other}")))
+        }
+    }
 }
 
 /// Fails if standard input is named for two files.

@@ -1,7 +1,8 @@
 use super::features::Run;
 use super::means::Means;
 use super::place::{
-    box_ring, check_beside, check_inputs, is_georeferenced, warn_of_stale, write_beside,
+    TIFF, box_ring, check_beside, check_extension, check_inputs, is_georeferenced, warn_of_stale,
+    write_beside,
 };
 use super::records::{Found, POLYGONS, Plan};
 use super::regions::{self, Parted};
@@ -14,7 +15,6 @@ use medial_image::{Class, Object, Objects, Selection};
 use medial_io::image::{self, PaletteColour};
 use medial_io::record::{self, Record, Shape, Value};
 use medial_io::{Feature, Format, Layer};
-use std::ffi::OsStr;
 use std::io::IsTerminal as _;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -55,6 +55,8 @@ pub fn run(args: &'static SegmentArgs) -> Result<Status, Failure> {
         ("--timings", args.run.run.timings.as_deref()),
     ];
     check_beside(file, format, &others)?;
+    check_extension("--labels", args.labels.as_deref(), TIFF)?;
+    check_extension("--palette", args.palette.as_deref(), &["csv", "gpl"])?;
     check_inputs(&[Some(&args.input), args.segmentation.mask.as_deref()])?;
     if is_picture && file.is_none() && std::io::stdout().is_terminal() {
         return Err(Failure::Usage("a terminal shows no png; name a file with -o".to_owned()));
@@ -64,15 +66,6 @@ pub fn run(args: &'static SegmentArgs) -> Result<Status, Failure> {
     let segmentation = &args.segmentation;
     let has_classes =
         !matches!(segmentation.method, SegmentMethod::MeanShift | SegmentMethod::Labels);
-    let is_known = |path: &PathBuf| {
-        let known =
-            |extension: &OsStr| ["csv", "gpl"].iter().any(|e| extension.eq_ignore_ascii_case(e));
-        path.extension().is_none_or(known)
-    };
-    if !args.palette.iter().all(is_known) {
-        let why = "--palette writes csv and gpl; the extension is another one";
-        return Err(Failure::Usage(why.to_owned()));
-    }
     if palette.is_some() && !has_classes {
         let why = "--palette is for methods with classes: feature_space, threshold, colours";
         return Err(Failure::Usage(why.to_owned()));

@@ -134,7 +134,7 @@ fn files_beside_an_image_say_where_it_lies() {
     assert!(run.text().contains("(103 47, 105 47)"), "{}", run.text());
     // Nothing takes the place of a file that says where an image lies.
     let world = beside("scene.pgw").to_str().unwrap().to_owned();
-    let run = medial(&["segment", &scene, "--labels", &world, "--to", "csv"]);
+    let run = medial(&["segment", &scene, "--report", &world, "--to", "csv"]);
     assert_eq!(run.status, Some(2), "{}", run.errors);
     assert!(run.errors.contains("is the input"), "{}", run.errors);
     // Left beside a picture without a place it is told.

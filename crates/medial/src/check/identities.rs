@@ -1,7 +1,7 @@
 use super::context::Context;
 use super::verdict::{Counts, Identity, Relation};
 use crate::axis::{Accuracy, KeypointKind};
-use crate::domain::{Corner, Domain};
+use crate::domain::Corner;
 use crate::geom::{DisjointSets, Point, dot_directions, order_key, orient2d};
 
 /// Counts what there is on the domain and on the axis.
@@ -161,9 +161,21 @@ fn through_corners(context: &Context, counts: &Counts) -> Option<(i64, i64)> {
     corners.sort_by_key(|edge| (order_key(at(edge).x), order_key(at(edge).y)));
     let mut groups = DisjointSets::new(domain.n_components());
     let mut shared = 0;
+    // Edges that go on through a corner of another polygon.
+    let mut passing = domain.touched_edges().unwrap_or_default();
+    let key = |p: Point| (order_key(p.x), order_key(p.y));
+    passing.sort_by_key(|&(_, touched)| key(touched));
     for together in corners.chunk_by(|a, b| at(a) == at(b)).filter(|corners| corners.len() > 1) {
-        let share = |&edge: &u32| together.iter().any(|&other| runs_back(domain, edge, other));
-        if together.iter().any(share) {
+        let place = at(&together[0]);
+        let before = |edge: u32| domain.edge(domain.edge(edge).prev).start;
+        let first = passing.partition_point(|&(_, touched)| key(touched) < key(place));
+        let through = passing[first..].iter().take_while(|(_, touched)| *touched == place);
+        let through = through.map(|&(edge, _)| (domain.edge(edge).start, domain.end(edge)));
+        let ways = together.iter().map(|&edge| (before(edge), domain.end(edge)));
+        let ways: Vec<(Point, Point)> = ways.chain(through).collect();
+        let share =
+            |&(_, to): &(Point, Point)| ways.iter().any(|&(from, _)| lie_along(place, to, from));
+        if ways.iter().any(share) {
             continue;
         }
         let convex = |edge: &&u32| domain.edge(**edge).corner == Corner::Convex;
@@ -182,11 +194,9 @@ fn through_corners(context: &Context, counts: &Counts) -> Option<(i64, i64)> {
     (shared > 0 && fits).then_some((components + cycles, components))
 }
 
-/// Whether an edge lies, where it starts, on the edge before another one that starts there.
-fn runs_back(domain: &Domain, edge: u32, other: u32) -> bool {
-    let (start, end) = (domain.edge(edge).start, domain.end(edge));
-    let before = domain.edge(domain.edge(other).prev).start;
-    orient2d(start, end, before) == 0.0 && dot_directions(start, end, start, before) > 0.0
+/// Whether two points are seen in one direction from a place.
+fn lie_along(place: Point, a: Point, b: Point) -> bool {
+    orient2d(place, a, b) == 0.0 && dot_directions(place, a, place, b) > 0.0
 }
 
 /// Joints of sites whose common normal goes to infinity, at the ends of edges on the hull.

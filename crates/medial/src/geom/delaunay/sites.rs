@@ -104,9 +104,18 @@ impl Sites {
 
     /// The centre of the circle through three points, and its radius, rounded.
     pub fn circle(&self, [a, b, c]: [u32; 3]) -> (Point, f64) {
-        let at = |vertex: u32| self.local[vertex as usize];
-        let way = Point::circumcentre(at(b) - at(a), at(c) - at(a));
-        (self.origin + (at(a) + way) * self.unit, way.norm() * self.unit)
+        let [mut a, mut b, mut c] = [a, b, c].map(|vertex| self.local[vertex as usize]);
+        if self.arithmetic != Arithmetic::Lattice {
+            // Seen from the corner of the two shorter sides: where two are very near one another, that is their way.
+            let sides = [(c - b).norm2(), (a - c).norm2(), (b - a).norm2()];
+            if sides[1] > sides[0] && sides[1] >= sides[2] {
+                (a, b, c) = (b, c, a);
+            } else if sides[2] > sides[0] {
+                (a, b, c) = (c, a, b);
+            }
+        }
+        let way = Point::circumcentre(b - a, c - a);
+        (self.origin + (a + way) * self.unit, way.norm() * self.unit)
     }
 
     /// The order of two points, by x, then by y.
