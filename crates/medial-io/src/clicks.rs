@@ -2,8 +2,8 @@
 //!
 //! # Contract
 //! Values between commas, semicolons or tabs with a first row that names the columns `action`, `x` and `y` in any order,
-//! others being passed over; without a column `action` each point is to `add`. Or JSON lines, each an object with `x` and `y` and, if it
-//! is not `add`, an `action`. Blank lines, and lines that start with `#`, are passed over.
+//! others being passed over; without a column `action` each point is to `add`. Or JSON lines, each an object with `x`
+//! and `y` and, if it is not `add`, an `action`. Blank lines, and lines that start with `#`, are passed over.
 
 use crate::{Error, text};
 use medial::geom::Point;

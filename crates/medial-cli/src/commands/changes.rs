@@ -1,8 +1,9 @@
 //! What became of the objects of an image in another one.
 
 use super::features::Run;
-use super::image::{Drawn, FORMATS, Painting, lines, several};
+use super::image::{FORMATS, several};
 use super::means::Means;
+use super::painting::{Drawn, Painting, lines};
 use super::place::{box_ring, is_georeferenced};
 use super::records::{Found, Plan};
 use super::regions::{self, Parted};

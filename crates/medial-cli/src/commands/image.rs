@@ -2,10 +2,8 @@ use super::axis::{dual, measured, traced};
 use super::changes;
 use super::features::Run;
 use super::means::Means;
-use super::place::{
-    TIFF, check_beside, check_extension, check_inputs, is_georeferenced, warn_of_stale,
-    write_beside,
-};
+use super::painting::{Drawn, Painting, lines};
+use super::place::{TIFF, check_beside, check_extension, check_inputs, is_georeferenced};
 use super::records::{Found, Plan};
 use super::regions::{self, Parted};
 use super::sink::title;
@@ -20,16 +18,15 @@ use crate::timings::{Stages, timed};
 use medial::axis::{Engine, Joining, Side};
 use medial::domain::{self, Domain};
 use medial::engine::{self, DelaunayDual, DualKind};
-use medial::geom::{Point, Rect};
+use medial::geom::Point;
 use medial::ops::Measure;
-use medial::raster::{Grid, Mask, outline};
+use medial::raster::{Mask, outline};
 use medial_image::{Borders, Labels, Object, Objects};
 use medial_io::record::{Record, Shape, Value};
-use medial_io::svg::{LineStyle, Options, Overlay, OverlayLayer};
+use medial_io::svg::Overlay;
 use medial_io::{
-    Crs, Drawing, Feature, Format, Layer, image, line_columns, line_records, png, point_record, svg,
+    Crs, Drawing, Feature, Format, Layer, image, line_columns, line_records, point_record,
 };
-use std::path::Path;
 use std::sync::Arc;
 
 /// Columns of what is written of a region, before those of lines.
@@ -47,9 +44,6 @@ pub const FORMATS: &[Format] = &[
     Format::Svg,
     Format::Png,
 ];
-
-/// Lines of a layer in a picture.
-pub type Drawn = (ImageLayer, Vec<Vec<Point>>);
 
 /// `medial image`.
 pub fn run(args: &'static ImageArgs) -> Result<Status, Failure> {
@@ -148,46 +142,6 @@ pub fn run(args: &'static ImageArgs) -> Result<Status, Failure> {
     })
 }
 
-/// Layers that are painted over an image, once all features have told theirs.
-pub struct Painting {
-    pub args: &'static ImageArgs,
-    pub format: Format,
-    pub title: String,
-    pub overlay: Overlay,
-    pub layers: Vec<ImageLayer>,
-}
-
-impl Painting {
-    /// Runs a plan on a layer that comes from an input with this name, and paints what is no record.
-    pub fn run(
-        self,
-        plan: &Plan,
-        run: Run,
-        input: &str,
-        layer: Layer<'static>,
-        work: impl Fn(
-            &Feature,
-            &Domain,
-            &mut Stages,
-            &engine::Options<'_>,
-        ) -> Result<Found<Vec<Drawn>>, Entry>
-        + Send
-        + Sync
-        + 'static,
-    ) -> Result<Status, Failure> {
-        let Self { args, format, title, overlay, layers } = self;
-        let mut drawn = None;
-        let status = plan.run_on(run, input, layer, work, |parts, stages| {
-            timed(&mut stages.write, || {
-                let picture = picture(args, format, title, overlay, &layers, parts)?;
-                Ok(drawn.insert(picture).take_bytes())
-            })
-        })?;
-        drawn.map_or(Ok(()), |picture| picture.tell_place(args))?;
-        Ok(status)
-    }
-}
-
 /// The format of the output, if layers have it.
 fn checked_format(args: &'static ImageArgs, layers: &[ImageLayer]) -> Result<Format, Failure> {
     let target: &'static Target = &args.target;
@@ -253,7 +207,7 @@ fn layer(
         };
         let polygons = match &borders {
             Some(borders) => objects.polygons_between(number, borders),
-            // Parts that meet at corners only are polygons of their own; that they hang together is for the mask to tell.
+            // Parts that meet at corners only are polygons of their own; that they hang together the mask tells.
             None => objects.polygons(number),
         };
         Feature {
@@ -430,101 +384,4 @@ fn lines_of(graph: &DelaunayDual<'_>, layer: ImageLayer) -> Vec<Vec<Point>> {
             graph.edges().map(|edge| edge.map(middle).to_vec()).collect()
         }
     }
-}
-
-/// The lines of a shape; rings of polygons are not closed.
-pub fn lines(shape: Shape) -> Vec<Vec<Point>> {
-    match shape {
-        Shape::Point(p) | Shape::PointInSpace(p, _) => vec![vec![p]],
-        Shape::Line(points) => vec![points],
-        Shape::LineInSpace(points) => vec![points.into_iter().map(|(p, _)| p).collect()],
-        Shape::Lines(lines) => lines,
-        Shape::Polygons(polygons) => polygons.into_iter().flatten().collect(),
-        _ => Vec::new(),
-    }
-}
-
-/// A picture, and where it lies.
-struct Picture {
-    bytes: Vec<u8>,
-    is_png: bool,
-    /// The pixels of PNG in the plane of a georeference, and its reference system.
-    place: Option<(Grid, Option<Crs>)>,
-}
-
-impl Picture {
-    fn take_bytes(&mut self) -> Vec<u8> {
-        std::mem::take(&mut self.bytes)
-    }
-
-    /// The file of a PNG picture.
-    fn file(&self, args: &'static ImageArgs) -> Option<&'static Path> {
-        args.target.output.as_deref().filter(|_| self.is_png)
-    }
-
-    /// Writes beside the file that was drawn where it lies, if it cannot tell it itself.
-    fn tell_place(&self, args: &'static ImageArgs) -> Result<(), Failure> {
-        match &self.place {
-            Some((grid, crs)) => write_beside(args.target.output.as_deref(), grid, crs.as_ref()),
-            None => {
-                warn_of_stale(self.file(args), args.run.run.quiet);
-                Ok(())
-            }
-        }
-    }
-}
-
-/// The picture of layers over the pixels of an image.
-fn picture(
-    args: &ImageArgs,
-    format: Format,
-    title: String,
-    mut overlay: Overlay,
-    layers: &[ImageLayer],
-    parts: Vec<Vec<Drawn>>,
-) -> Result<Picture, Failure> {
-    let mut drawn: Vec<OverlayLayer> = layers.iter().map(|&layer| overlay_layer(layer)).collect();
-    for (layer, lines) in parts.into_iter().flatten() {
-        if let Some(number) = layers.iter().position(|&other| other == layer) {
-            drawn[number].lines.extend(lines);
-        }
-    }
-    overlay.layers = drawn;
-    if let Some([a, b]) = args.window {
-        let min = Point::new(a.x.min(b.x), a.y.min(b.y));
-        let max = Point::new(a.x.max(b.x), a.y.max(b.y));
-        overlay = overlay.within(Rect { min, max }).ok_or_else(|| {
-            let name = args.input.display().to_string();
-            Failure::file(&name, "has no pixel in --window; see where the image lies")
-        })?;
-    }
-    let options = Options { title, ..Options::default() };
-    if format == Format::Svg {
-        let bytes = svg::write_overlay(&overlay, &options).into_bytes();
-        return Ok(Picture { bytes, is_png: false, place: None });
-    }
-    let bytes = png::write_overlay(&overlay, &options);
-    let bytes = bytes.map_err(|error| Failure::file("<picture>", error))?;
-    let grid = png::overlay_grid(&overlay, &options);
-    Ok(Picture {
-        bytes,
-        is_png: true,
-        place: overlay.is_georeferenced.then_some((grid, overlay.crs)),
-    })
-}
-
-fn overlay_layer(layer: ImageLayer) -> OverlayLayer {
-    let style = match layer {
-        ImageLayer::Border => LineStyle::BORDER,
-        ImageLayer::Delaunay => LineStyle::DELAUNAY,
-        ImageLayer::Crust => LineStyle::CRUST,
-        ImageLayer::Dual => LineStyle::DUAL,
-        ImageLayer::Nodes => LineStyle::NODES,
-        ImageLayer::Axis => LineStyle::AXIS,
-        ImageLayer::Change => LineStyle::CHANGE,
-        ImageLayer::Gained => LineStyle::GAINED,
-        ImageLayer::Lost => LineStyle::LOST,
-    };
-    let are_rings = layer == ImageLayer::Border || layer.is_of_changes();
-    OverlayLayer { name: layer.name(), style, lines: Vec::new(), are_rings }
 }

@@ -12,6 +12,7 @@ pub mod image;
 pub mod locate;
 mod means;
 pub mod offset;
+mod painting;
 mod pixels;
 mod place;
 pub mod reconstruct;

@@ -10,8 +10,9 @@
 //! Rows are decoded one after the other and kept as bits, so a large image takes little more memory than its
 //! file and its mask. An image without a threshold is decoded twice if it has many pixels.
 //!
-//! Coordinates are those of the georeference, in the image or in a [world file](WorldFile) beside it. Without one they are pixels from the upper left
-//! corner, x to the right and y upwards, so that y is the negative of rows, as with drawings.
+//! Coordinates are those of the georeference, in the image or in a [world file](WorldFile) beside it. Without one they
+//! are pixels from the upper left corner, x to the right and y upwards, so that y is the negative of rows, as with
+//! drawings.
 
 mod jpeg;
 mod palette;

@@ -85,7 +85,9 @@ impl WorldFile {
 fn text_of(path: &PathBuf) -> Result<Option<String>, Error> {
     match fs::read(path) {
         Ok(bytes) => Ok(Some(String::from_utf8_lossy(&bytes).into_owned())),
-        Err(error) if error.kind() == ErrorKind::NotFound => Ok(None),
+        Err(error) if matches!(error.kind(), ErrorKind::NotFound | ErrorKind::IsADirectory) => {
+            Ok(None)
+        }
         Err(error) => Err(Error::File {
             why: format!("{} beside it cannot be read: {error}", path.display()),
         }),
