@@ -163,7 +163,7 @@ impl Opened {
             return Err(Failure::Usage(why));
         }
         if matches!(format, Format::Png | Format::Tiff | Format::Jpeg) {
-            options.world = WorldFile::of(path).map_err(|error| Failure::file(&name, error))?;
+            options.world = Box::new(world_of(path)?);
         }
         let content = if format.is_streamed() {
             let source: Source = Box::new(Cursor::new(bytes).chain(source));
@@ -238,6 +238,14 @@ fn table(
     }
     let content = Features::File(path.to_owned());
     Ok(Opened::Polygons(Polygons { name, format, options, content }))
+}
+
+/// What files beside an image say of where it lies; nothing that is told takes their place.
+pub fn world_of(image: &Path) -> Result<WorldFile, Failure> {
+    let world = WorldFile::of(image).map_err(|error| Failure::file(&name(image), error))?;
+    let files = world.world.iter().chain(&world.prj);
+    files.map(|(name, _)| reads(Path::new(name))).collect::<Result<Vec<()>, _>>()?;
+    Ok(world)
 }
 
 fn fonts(files: &[PathBuf]) -> Result<svg::Fonts, Failure> {

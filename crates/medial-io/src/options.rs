@@ -19,7 +19,7 @@ pub struct ReadOptions {
     /// Whether images come as masks alone, without the polygons of their outlines, which take much more memory.
     pub masks_alone: bool,
     /// What files beside an image say of where it lies.
-    pub world: WorldFile,
+    pub world: Box<WorldFile>,
     /// Fonts for the text of drawings.
     pub fonts: Fonts,
 }

@@ -669,3 +669,35 @@ fn axes_of_masks_are_judged_by_what_samples_cut_off_at_any_spacing() {
         }
     }
 }
+
+#[test]
+fn radii_along_long_paths_are_those_of_their_points() {
+    // Two squares far apart, with a straight way between that is farther from them at its ends.
+    let square = |x: f64| {
+        let corners = [(x, 0.0), (x + 1.0, 0.0), (x + 1.0, 1.0), (x, 1.0)];
+        vec![corners.map(|(x, y)| Point::new(x, y)).to_vec()]
+    };
+    let polygons = [square(0.0), square(20.0)];
+    let domain = Domain::from_polygons(&polygons, &medial::domain::Options::default()).unwrap();
+    let options = Options { spacing: Some(0.1), ..Options::default() };
+    let dual = DelaunayDual::outside(&domain, None, &options).unwrap();
+    let axis = dual.axis(DualPruning::Nothing).unwrap();
+    let distance = |p: Point| {
+        let edges = domain.edges().iter();
+        let away = edges.map(|edge| {
+            let along = edge.direction.dot(p - edge.start).clamp(0.0, edge.length);
+            (edge.start + edge.direction * along - p).norm()
+        });
+        away.fold(f64::INFINITY, f64::min)
+    };
+    let mut longest = 0.0_f64;
+    for path in axis.paths() {
+        let curve = axis.curve(&path);
+        longest = longest.max(curve.length());
+        for u in [0.0, 0.25, 0.5, 0.75, 1.0] {
+            let off = curve.radius_at(u) - distance(curve.point_at(u));
+            assert!(off.abs() <= 0.1, "{off} at {:?}", curve.point_at(u));
+        }
+    }
+    assert!(longest > 0.3, "{longest}");
+}

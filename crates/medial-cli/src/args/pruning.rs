@@ -13,8 +13,8 @@ pub struct Pruning {
     /// relative_excess, prominence, potential, chord, circularity, erosion, length, angle,
     /// half_chord, radius, scale
     ///
-    /// Images are pruned by chord=2 cells if nothing else is said; `none` keeps what their disks need to be
-    /// the image again, and of delaunay_dual everything; `leaf`, for delaunay_dual, removes leaves of one triangle
+    /// raster_transform and delaunay_dual prune images by chord=2 cells, and measures other than chord what that has
+    /// left; `none` keeps what their disks need to be the image again, and of delaunay_dual everything; `leaf`, for delaunay_dual, removes leaves of one triangle
     #[arg(long, value_name = "MEASURE=VALUE", value_parser = prune, conflicts_with = "max_error")]
     pub prune: Option<Prune>,
     /// Remove branches for as long as the boundary moves by less than this, in units of the input:

@@ -134,9 +134,8 @@ fn check_alike(before: &Parted, after: &Parted) -> Result<(), Failure> {
             "the reference system is {crs}, that of {name} {other}; project one image into the system of the other"
         ));
     }
-    if before.means.are_bands() != after.means.are_bands() {
-        let kind = |parted: &Parted| if parted.means.are_bands() { "bands" } else { "colours" };
-        let (kind, other) = (kind(before), kind(after));
+    let [kind, other] = [before, after].map(|parted| parted.means.kind());
+    if kind != other {
         return wrong(format_args!(
             "the image has {kind}, {name} {other}; compare two of a kind, or name bands of both with --bands"
         ));

@@ -3,7 +3,9 @@ use super::changes;
 use super::features::Run;
 use super::means::Means;
 use super::painting::{Drawn, Painting, lines};
-use super::place::{TIFF, check_beside, check_extension, check_inputs, is_georeferenced};
+use super::place::{
+    TIFF, check_beside, check_extension, check_inputs, is_georeferenced, warn_of_stale,
+};
 use super::records::{Found, Plan};
 use super::regions::{self, Parted};
 use super::sink::title;
@@ -86,6 +88,9 @@ pub fn run(args: &'static ImageArgs) -> Result<Status, Failure> {
         timed(&mut run.stages.write, || {
             output.whole(&labels_of(&objects, crs.as_ref(), input.bytes()))
         })?;
+        if !is_georeferenced(&grid, crs.as_ref()) {
+            warn_of_stale(args.labels.as_deref(), args.run.run.quiet);
+        }
     }
     let cell = grid.cell_size();
     let plan = Plan {

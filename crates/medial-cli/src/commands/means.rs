@@ -38,6 +38,16 @@ impl Means {
         !matches!(self, Self::Colours)
     }
 
+    /// What they are called.
+    pub fn kind(&self) -> &'static str {
+        match self {
+            Self::Colours => "colours",
+            Self::Bands(_) => "bands",
+            Self::Labels(numbers) if numbers.are_colours => "labels by their colours",
+            Self::Labels(_) => "labels by their numbers",
+        }
+    }
+
     /// The means of a region, none of values that are not there.
     pub fn told(&self, region: u32, means: [f32; 3]) -> [Value; 3] {
         let value = |k: usize| match self {
@@ -71,8 +81,9 @@ impl Means {
 impl Numbers {
     /// The colour of a number: the one that it stands for, or one of its own; nearly black for 0, and none without data.
     pub fn colour(&self, number: f64) -> [f32; 3] {
-        /// Turns of the circle of colours from one number to the next: no two that are near one another are alike.
-        const TURN: f64 = 0.618_033_988_749_895;
+        /// The golden section of the circle of colours from one number to the next, in parts of 2^64 of it: no two that are
+        /// near one another are alike.
+        const TURN: u64 = 0x9e37_79b9_7f4a_7c15;
         if number.is_nan() {
             return [f32::NAN; 3];
         }
@@ -83,7 +94,8 @@ impl Numbers {
         if number == 0.0 {
             return [0.1; 3];
         }
-        let turns = (number * TURN).rem_euclid(1.0);
+        let whole = if number.fract() == 0.0 { number as i64 as u64 } else { number.to_bits() };
+        let turns = whole.wrapping_mul(TURN) as f64 / 2.0_f64.powi(64);
         [0.0, 1.0 / 3.0, 2.0 / 3.0].map(|phase: f64| {
             let (sin, _) = (std::f64::consts::TAU * (turns + phase)).sin_cos();
             (0.6 + 0.35 * sin) as f32

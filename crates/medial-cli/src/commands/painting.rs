@@ -92,7 +92,10 @@ impl Picture {
     /// Writes beside the file that was drawn where it lies, if it cannot tell it itself.
     fn tell_place(&self, args: &'static ImageArgs) -> Result<(), Failure> {
         match &self.place {
-            Some((grid, crs)) => write_beside(args.target.output.as_deref(), grid, crs.as_ref()),
+            Some((grid, crs)) => {
+                let (file, quiet) = (args.target.output.as_deref(), args.run.run.quiet);
+                write_beside(file, grid, crs.as_ref(), quiet)
+            }
             None => {
                 warn_of_stale(self.file(args), args.run.run.quiet);
                 Ok(())

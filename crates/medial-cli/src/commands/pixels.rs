@@ -3,10 +3,9 @@
 use crate::args::{SegmentMethod, Segmentation};
 use crate::failure::Failure;
 use crate::guard::guarded;
-use crate::input::Input;
-use crate::output::reads;
+use crate::input::{Input, world_of};
 use medial::raster::Mask;
-use medial_io::image::{self, Numbers, WorldFile};
+use medial_io::image::{self, Numbers};
 use medial_io::{Content, Error, Format, ReadOptions};
 use std::path::Path;
 
@@ -27,11 +26,7 @@ impl Pixels {
         mask: Option<&Path>,
     ) -> Result<Self, Failure> {
         let format = format_of(from, path, input)?;
-        let world = WorldFile::of(path).map_err(|error| input.wrong(error))?;
-        // Nothing that is told takes its place.
-        if let Some((name, _)) = &world.world {
-            reads(Path::new(name))?;
-        }
+        let world = world_of(path)?;
         let bands: Vec<usize> = args.bands.iter().map(|band| band.get()).collect();
         let mut pixels = match args.method {
             SegmentMethod::Labels => {
@@ -97,6 +92,7 @@ impl Pixels {
     fn leave_out_masked(&mut self, path: &Path, input: &Input) -> Result<(), Failure> {
         let file = Input::read(path)?;
         let format = format_of(None, path, &file)?;
+        world_of(path)?;
         let options = ReadOptions { threshold: Some(0.0), ..ReadOptions::default() };
         let (mask, _) = decoded(&file, || image::read_mask(format, file.bytes(), &options))?;
         let grid = self.colours.grid;

@@ -4,7 +4,8 @@ use crate::failure::Failure;
 use crate::output::Output;
 use medial::geom::Point;
 use medial::raster::Grid;
-use medial_io::{Crs, Format, image};
+use medial_io::image::{self, WorldFile};
+use medial_io::{Crs, Format};
 use std::ffi::OsStr;
 use std::fs;
 use std::path::Path;
@@ -32,16 +33,30 @@ pub fn box_ring(grid: &Grid, [left, top]: [u32; 2], [right, bottom]: [u32; 2]) -
 /// Writes beside a PNG file its world file, and its reference system if there is text for it.
 ///
 /// A picture in no file, as on standard output, has nothing beside it.
-pub fn write_beside(picture: Option<&Path>, grid: &Grid, crs: Option<&Crs>) -> Result<(), Failure> {
+pub fn write_beside(
+    picture: Option<&Path>,
+    grid: &Grid,
+    crs: Option<&Crs>,
+    quiet: bool,
+) -> Result<(), Failure> {
     let is_file = |path: &&Path| fs::metadata(path).is_ok_and(|found| found.is_file());
     let Some(picture) = picture.filter(is_file) else { return Ok(()) };
+    // They go with the picture, whatever was there.
     let write = |extension: &str, text: &str| {
-        Output::beside(&picture.with_extension(extension))?.whole(text.as_bytes())
+        Output::create(Some(&picture.with_extension(extension)))?.whole(text.as_bytes())
     };
     write("pgw", &image::world_file(grid))?;
     match crs.and_then(Crs::first_wkt) {
         Some(wkt) => write("prj", &wkt),
-        None => Ok(()),
+        None => {
+            let told = WorldFile::of(picture).ok().and_then(|world| world.prj);
+            if let Some((name, _)) = told.filter(|_| !quiet) {
+                crate::progress::line(&format!(
+                    "warning: {name} was there before and names a reference system; remove it"
+                ));
+            }
+            Ok(())
+        }
     }
 }
 
@@ -93,13 +108,12 @@ pub fn check_inputs(inputs: &[Option<&Path>]) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Says what stands beside a picture without a place and gives it one, as a picture before it had.
-pub fn warn_of_stale(picture: Option<&Path>, quiet: bool) {
-    let stale = picture.map(|picture| picture.with_extension("pgw")).filter(|path| path.exists());
-    if let Some(stale) = stale.filter(|_| !quiet) {
-        let name = stale.display();
+/// Says what stands beside an image without a place and gives it one, as an image before it had.
+pub fn warn_of_stale(image: Option<&Path>, quiet: bool) {
+    let world = image.and_then(|image| WorldFile::of(image).ok()).and_then(|told| told.world);
+    if let Some((name, _)) = world.filter(|_| !quiet) {
         crate::progress::line(&format!(
-            "warning: {name} was there before and says that the picture lies elsewhere; remove it"
+            "warning: {name} was there before and says that the image lies elsewhere; remove it"
         ));
     }
 }

@@ -78,6 +78,9 @@ pub fn run(args: &'static SegmentArgs) -> Result<Status, Failure> {
         let numbers: Vec<u32> = labels.labels().iter().map(|label| label.wrapping_add(1)).collect();
         let bytes = image::write_labels(&grid, crs.as_ref(), &numbers, 0, input.bytes());
         timed(&mut run.stages.write, || output.whole(&bytes))?;
+        if !is_georeferenced(&grid, crs.as_ref()) {
+            warn_of_stale(args.labels.as_deref(), args.run.run.quiet);
+        }
     }
     if let Some(output) = palette {
         let text = palette_text(args, &labels.classes(&regions), &means);
@@ -93,7 +96,7 @@ pub fn run(args: &'static SegmentArgs) -> Result<Status, Failure> {
         timed(&mut run.stages.write, || {
             Output::create(file)?.whole(&bytes)?;
             match is_georeferenced(&grid, crs.as_ref()) {
-                true => write_beside(file, &grid, crs.as_ref()),
+                true => write_beside(file, &grid, crs.as_ref(), args.run.run.quiet),
                 false => {
                     warn_of_stale(file, args.run.run.quiet);
                     Ok(())

@@ -133,10 +133,13 @@ fn files_beside_an_image_say_where_it_lies() {
     let run = medial(&["axis", &scene, "--prune", "none", "--to", "wkt"]);
     assert!(run.text().contains("(103 47, 105 47)"), "{}", run.text());
     // Nothing takes the place of a file that says where an image lies.
-    let world = beside("scene.pgw").to_str().unwrap().to_owned();
-    let run = medial(&["segment", &scene, "--report", &world, "--to", "csv"]);
-    assert_eq!(run.status, Some(2), "{}", run.errors);
-    assert!(run.errors.contains("is the input"), "{}", run.errors);
+    for (name, command) in [("scene.pgw", "segment"), ("scene.prj", "image"), ("scene.pgw", "axis")]
+    {
+        let file = beside(name).to_str().unwrap().to_owned();
+        let run = medial(&[command, &scene, "--report", &file, "--to", "csv"]);
+        assert_eq!(run.status, Some(2), "{}", run.errors);
+        assert!(run.errors.contains("is the input"), "{}", run.errors);
+    }
     // Left beside a picture without a place it is told.
     let other = picture(folder.path(), "other.png", &["....", ".rr.", "...."]);
     let run = medial(&["segment", &scene, "-q", "-o", beside("drawn.png").to_str().unwrap()]);

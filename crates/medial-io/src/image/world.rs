@@ -11,15 +11,15 @@ use medial::geom::Point;
 use medial::raster::Grid;
 use std::fs;
 use std::io::ErrorKind;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// What files beside an image say of where it lies.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct WorldFile {
     /// The name and the text of the world file; without one nothing is told.
     pub world: Option<(String, String)>,
-    /// The text of the reference system.
-    pub prj: Option<String>,
+    /// The name and the text of the file with the reference system.
+    pub prj: Option<(String, String)>,
 }
 
 impl WorldFile {
@@ -41,11 +41,9 @@ impl WorldFile {
         ];
         let places = names.iter().flat_map(|name| [name.clone(), name.to_uppercase()]);
         for place in places.map(|name| image.with_extension(name)) {
-            if let Some(text) = text_of(&place)? {
-                let world = Some((place.display().to_string(), text));
-                let systems = ["prj", "PRJ"].map(|name| text_of(&image.with_extension(name)));
-                let [prj, capital] = systems;
-                return Ok(Self { world, prj: prj?.or(capital?) });
+            if let Some(world) = named(&place)? {
+                let [prj, capital] = ["prj", "PRJ"].map(|name| named(&image.with_extension(name)));
+                return Ok(Self { world: Some(world), prj: prj?.or(capital?) });
             }
         }
         Ok(Self::default())
@@ -76,15 +74,19 @@ impl WorldFile {
         if a != 0.0 || b != 0.0 {
             return Err(wrong("turns the image; warp it first, as with gdalwarp".to_owned()));
         }
+        let crs = self.prj.as_ref().map(|(_, text)| Crs::of_wkt(text));
         let origin = Point::new(x - 0.5 * width, y - 0.5 * height);
-        Ok(Some(Place { origin, cell: [width, height], crs: self.prj.as_deref().map(Crs::of_wkt) }))
+        Ok(Some(Place { origin, cell: [width, height], crs }))
     }
 }
 
-/// The text of a file, if it is there.
-fn text_of(path: &PathBuf) -> Result<Option<String>, Error> {
+/// The name and the text of a file, if it is there.
+fn named(path: &Path) -> Result<Option<(String, String)>, Error> {
     match fs::read(path) {
-        Ok(bytes) => Ok(Some(String::from_utf8_lossy(&bytes).into_owned())),
+        Ok(bytes) => {
+            let text = String::from_utf8_lossy(&bytes).into_owned();
+            Ok(Some((path.display().to_string(), text)))
+        }
         Err(error) if matches!(error.kind(), ErrorKind::NotFound | ErrorKind::IsADirectory) => {
             Ok(None)
         }

@@ -39,6 +39,8 @@ struct Piece {
     to: End,
     left: u32,
     right: u32,
+    /// One of the two samples that it is as far from, in the plane of the input, if it is a Voronoi edge.
+    sample: Option<Point>,
 }
 
 /// Where a piece ends: in a node, on the frame, at a place of this radius, or in a corner.
@@ -84,7 +86,8 @@ impl Drawn<'_> {
             keypoints.push(&self.keypoint(node, degrees[node as usize]), list.iter().copied());
         }
         let mut paths = PathTable::with_room(pieces.len());
-        for Piece { from, to, left, right } in pieces {
+        let mut between = Vec::new();
+        for Piece { from, to, left, right, sample } in pieces {
             [left, right].into_iter().for_each(|element| numbers[element as usize] = 0);
             let mut numbered = |end: End| {
                 let (position, radius, kind) = match end {
@@ -96,7 +99,19 @@ impl Drawn<'_> {
                 keypoints.push(&Keypoint { position, radius, kind }, governors.into_iter());
                 keypoints.len() - 1
             };
-            let [from, to] = [from, to].map(&mut numbered);
+            let [mut from, to] = [from, to].map(&mut numbered);
+            if let Some(sample) = sample {
+                let ends = [from, to].map(|k| keypoints.at(k)).map(|k| (k.position, k.radius));
+                divided(sample, ends, label.spacing, MOST_HALVINGS, &mut between);
+            }
+            for (position, radius) in between.drain(..) {
+                let governors = [left.min(right), left.max(right)];
+                let kind = KeypointKind::Transition;
+                keypoints.push(&Keypoint { position, radius, kind }, governors.into_iter());
+                let next = keypoints.len() - 1;
+                paths.push(&Path { from, to: next, left, right }, &keypoints);
+                from = next;
+            }
             paths.push(&Path { from, to, left, right }, &keypoints);
         }
         let too_large = || EngineError::TooLarge { n_edges: n_elements };
@@ -221,7 +236,9 @@ impl Drawn<'_> {
                 self.within(&frame, starts, ends, [left, right])?
             }
         };
-        Some(self.mirrored(from, to, left_element, right_element))
+        let is_voronoi_edge = (edge.from as usize) < self.disks.len();
+        let sample = is_voronoi_edge.then(|| self.plane.place(left));
+        Some(Piece { sample, ..self.mirrored(from, to, left_element, right_element) })
     }
 
     /// The path into the corner where a boundary edge starts, if it is one that no node stands for.
@@ -249,8 +266,8 @@ impl Drawn<'_> {
 
     fn mirrored(&self, from: End, to: End, left: u32, right: u32) -> Piece {
         match self.plane.is_mirrored() {
-            true => Piece { from, to, left: right, right: left },
-            false => Piece { from, to, left, right },
+            true => Piece { from, to, left: right, right: left, sample: None },
+            false => Piece { from, to, left, right, sample: None },
         }
     }
 
@@ -273,6 +290,29 @@ impl Drawn<'_> {
         };
         Some([starts.unwrap_or_else(|| clip(low)), ends.unwrap_or_else(|| clip(high))])
     }
+}
+
+/// How often a Voronoi edge is halved at most.
+const MOST_HALVINGS: u32 = 12;
+
+/// Places between the ends of a Voronoi edge, with their distance from one of its samples, so that between two of them
+/// the distance is that of a straight line but for half of a tolerance.
+fn divided(
+    sample: Point,
+    [from, to]: [(Point, f64); 2],
+    tolerance: f64,
+    halvings: u32,
+    between: &mut Vec<(Point, f64)>,
+) {
+    let at = (from.0 + to.0) * 0.5;
+    let middle = (at, (at - sample).norm());
+    let off = 0.5 * (from.1 + to.1) - middle.1;
+    if halvings == 0 || off.abs() <= 0.5 * tolerance || !off.is_finite() {
+        return;
+    }
+    divided(sample, [from, middle], tolerance, halvings - 1, between);
+    between.push(middle);
+    divided(sample, [middle, to], tolerance, halvings - 1, between);
 }
 
 /// A place so far away in a direction that it lies beyond a frame, whether the way there starts inside or not.
