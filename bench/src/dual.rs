@@ -7,7 +7,7 @@ use medial::axis::MedialAxis;
 use medial::check::difference;
 use medial::domain::{Domain, Options};
 use medial::engine::{self, DelaunayDual, DualPruning, crust, path_tracing, two_step_crust};
-use medial::geom::Point;
+use medial::geom::{DisjointSets, Point};
 use medial::raster::{Mask, outline, topology};
 
 use crate::bitmap;
@@ -95,24 +95,11 @@ fn crusts(dual: &DelaunayDual<'_>) -> [Crust; 2] {
 }
 
 fn components(axis: &MedialAxis) -> usize {
-    fn root(sets: &mut [u32], mut k: u32) -> u32 {
-        while sets[k as usize] != k {
-            sets[k as usize] = sets[sets[k as usize] as usize];
-            k = sets[k as usize];
-        }
-        k
-    }
-    let n = axis.keypoints().len();
-    let mut sets: Vec<u32> = (0..n as u32).collect();
-    let mut components = n;
+    let mut sets = DisjointSets::new(axis.keypoints().len());
     for path in axis.paths() {
-        let (a, b) = (root(&mut sets, path.from), root(&mut sets, path.to));
-        if a != b {
-            sets[a as usize] = b;
-            components -= 1;
-        }
+        sets.join(path.from, path.to);
     }
-    components
+    sets.count()
 }
 
 /// How far the axis is from the exact one as the spacing is halved, a line each; lengths are shares of the longer

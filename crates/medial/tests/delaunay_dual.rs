@@ -7,7 +7,7 @@ use medial::axis::{KeypointKind, MedialAxis};
 use medial::check::{Defect, defects, difference};
 use medial::domain::Domain;
 use medial::engine::{DelaunayDual, DualKind, DualNode, DualPruning, Options, path_tracing};
-use medial::geom::{Point, signed_area};
+use medial::geom::{DisjointSets, Point, signed_area};
 use medial::ops::{Hierarchy, Measure};
 use medial::raster::{Grid, Mask, default_cell, outline, topology};
 use support::random::{Random, random_domains};
@@ -77,22 +77,12 @@ fn the_distance_from_the_exact_axis_goes_to_zero_with_the_spacing() {
 
 /// Components and cycles of an axis.
 fn graph_topology(axis: &MedialAxis) -> (u32, u32) {
-    fn root(sets: &[usize], mut k: usize) -> usize {
-        while sets[k] != k {
-            k = sets[k];
-        }
-        k
-    }
     let n = axis.keypoints().len();
-    let mut sets: Vec<usize> = (0..n).collect();
-    let mut components = n;
+    let mut sets = DisjointSets::new(n);
     for path in axis.paths() {
-        let (a, b) = (root(&sets, path.from as usize), root(&sets, path.to as usize));
-        if a != b {
-            sets[a.max(b)] = a.min(b);
-            components -= 1;
-        }
+        sets.join(path.from, path.to);
     }
+    let components = sets.count();
     (components as u32, (axis.paths().len() + components - n) as u32)
 }
 

@@ -3,9 +3,7 @@ use super::changes;
 use super::features::Run;
 use super::means::Means;
 use super::painting::{Drawn, Painting, lines};
-use super::place::{
-    TIFF, check_beside, check_extension, check_inputs, is_georeferenced, warn_of_stale,
-};
+use super::place::{TIFF, check_beside, check_file, check_inputs, is_georeferenced, write_labels};
 use super::records::{Found, Plan};
 use super::regions::{self, Parted};
 use super::sink::title;
@@ -59,7 +57,7 @@ pub fn run(args: &'static ImageArgs) -> Result<Status, Failure> {
         ("--timings", args.run.run.timings.as_deref()),
     ];
     check_beside(args.target.output.as_deref(), format, &others)?;
-    check_extension("--labels", args.labels.as_deref(), TIFF)?;
+    check_file("--labels", args.labels.as_deref(), TIFF)?;
     let segmentation = &args.segmentation;
     check_inputs(&[
         Some(&args.input),
@@ -84,13 +82,12 @@ pub fn run(args: &'static ImageArgs) -> Result<Status, Failure> {
     }
     let Parted { input, crs, means, colours, .. } = parted;
     let (grid, objects) = (*objects.grid(), Arc::new(objects));
+    let is_georeferenced = is_georeferenced(&grid, crs.as_ref());
     if let Some(output) = labels {
         timed(&mut run.stages.write, || {
-            output.whole(&labels_of(&objects, crs.as_ref(), input.bytes()))
+            let bytes = labels_of(&objects, crs.as_ref(), input.bytes());
+            write_labels(output, &bytes, is_georeferenced, args.run.run.quiet)
         })?;
-        if !is_georeferenced(&grid, crs.as_ref()) {
-            warn_of_stale(args.labels.as_deref(), args.run.run.quiet);
-        }
     }
     let cell = grid.cell_size();
     let plan = Plan {
@@ -101,7 +98,6 @@ pub fn run(args: &'static ImageArgs) -> Result<Status, Failure> {
         engine: args.engine(cell).engine,
         layers: several(&layers),
     };
-    let is_georeferenced = is_georeferenced(&grid, crs.as_ref());
     let overlay = Overlay { grid, colours, layers: Vec::new(), is_georeferenced, crs: crs.clone() };
     let borders = timed(&mut run.stages.operations, || borders(&objects, args));
     let has_borders = borders.is_some();

@@ -1,6 +1,7 @@
 //! What the values of regions say: colours, bands, or numbers of labels.
 
 use medial_image::srgb;
+use medial_io::image::hexadecimal;
 use medial_io::record::Value;
 use std::sync::Arc;
 
@@ -62,7 +63,7 @@ impl Means {
         match self {
             Self::Colours => srgb(means),
             Self::Bands(_) => [means[0] / 100.0; 3],
-            Self::Labels(numbers) => numbers.colour(numbers.of[region as usize]),
+            Self::Labels(numbers) => colour_of(numbers.of[region as usize], numbers.are_colours),
         }
     }
 
@@ -73,32 +74,30 @@ impl Means {
 
     /// That colour as text.
     pub fn color(&self, region: u32, means: [f32; 3]) -> Value {
-        let [red, green, blue] = self.bytes(region, means);
-        Value::Text(format!("#{red:02x}{green:02x}{blue:02x}"))
+        Value::Text(hexadecimal(self.bytes(region, means)))
     }
 }
 
-impl Numbers {
-    /// The colour of a number: the one that it stands for, or one of its own; nearly black for 0, and none without data.
-    pub fn colour(&self, number: f64) -> [f32; 3] {
-        /// The golden section of the circle of colours from one number to the next, in parts of 2^64 of it: no two that are
-        /// near one another are alike.
-        const TURN: u64 = 0x9e37_79b9_7f4a_7c15;
-        if number.is_nan() {
-            return [f32::NAN; 3];
-        }
-        if self.are_colours {
-            let bytes = number as u32;
-            return [16, 8, 0].map(|shift| (bytes >> shift & 255) as f32 / 255.0);
-        }
-        if number == 0.0 {
-            return [0.1; 3];
-        }
-        let whole = if number.fract() == 0.0 { number as i64 as u64 } else { number.to_bits() };
-        let turns = whole.wrapping_mul(TURN) as f64 / 2.0_f64.powi(64);
-        [0.0, 1.0 / 3.0, 2.0 / 3.0].map(|phase: f64| {
-            let (sin, _) = (std::f64::consts::TAU * (turns + phase)).sin_cos();
-            (0.6 + 0.35 * sin) as f32
-        })
+/// The colour of a number of labels: the one that it stands for, or one of its own; nearly black for 0, and none without
+/// data.
+pub fn colour_of(number: f64, are_colours: bool) -> [f32; 3] {
+    /// The golden section of the circle of colours from one number to the next, in parts of 2^64 of it: no two that are
+    /// near one another are alike.
+    const TURN: u64 = 0x9e37_79b9_7f4a_7c15;
+    if number.is_nan() {
+        return [f32::NAN; 3];
     }
+    if are_colours {
+        let bytes = number as u32;
+        return [16, 8, 0].map(|shift| (bytes >> shift & 255) as f32 / 255.0);
+    }
+    if number == 0.0 {
+        return [0.1; 3];
+    }
+    let whole = if number.fract() == 0.0 { number as i64 as u64 } else { number.to_bits() };
+    let turns = whole.wrapping_mul(TURN) as f64 / 2.0_f64.powi(64);
+    [0.0, 1.0 / 3.0, 2.0 / 3.0].map(|phase: f64| {
+        let (sin, _) = (std::f64::consts::TAU * (turns + phase)).sin_cos();
+        (0.6 + 0.35 * sin) as f32
+    })
 }

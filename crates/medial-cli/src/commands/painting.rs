@@ -1,7 +1,7 @@
 //! Pictures of layers over the pixels of an image, once all features have told their lines.
 
 use super::features::Run;
-use super::place::{warn_of_stale, write_beside};
+use super::place::tell_place;
 use super::records::{Found, Plan};
 use crate::args::{ImageArgs, ImageLayer};
 use crate::failure::{Failure, Status};
@@ -14,7 +14,6 @@ use medial::raster::Grid;
 use medial_io::record::Shape;
 use medial_io::svg::{LineStyle, Options, Overlay, OverlayLayer};
 use medial_io::{Crs, Feature, Format, Layer, png, svg};
-use std::path::Path;
 
 /// Lines of a layer in a picture.
 pub type Drawn = (ImageLayer, Vec<Vec<Point>>);
@@ -84,23 +83,11 @@ impl Picture {
         std::mem::take(&mut self.bytes)
     }
 
-    /// The file of a PNG picture.
-    fn file(&self, args: &'static ImageArgs) -> Option<&'static Path> {
-        args.target.output.as_deref().filter(|_| self.is_png)
-    }
-
-    /// Writes beside the file that was drawn where it lies, if it cannot tell it itself.
-    fn tell_place(&self, args: &'static ImageArgs) -> Result<(), Failure> {
-        match &self.place {
-            Some((grid, crs)) => {
-                let (file, quiet) = (args.target.output.as_deref(), args.run.run.quiet);
-                write_beside(file, grid, crs.as_ref(), quiet)
-            }
-            None => {
-                warn_of_stale(self.file(args), args.run.run.quiet);
-                Ok(())
-            }
-        }
+    /// Tells beside the file that was drawn where it lies, if it cannot tell it itself.
+    fn tell_place(&self, args: &ImageArgs) -> Result<(), Failure> {
+        let file = args.target.output.as_deref().filter(|_| self.is_png);
+        let place = self.place.as_ref().map(|(grid, crs)| (grid, crs.as_ref()));
+        tell_place(file, place, args.run.run.quiet)
     }
 }
 

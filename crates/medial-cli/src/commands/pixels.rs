@@ -4,7 +4,6 @@ use crate::args::{SegmentMethod, Segmentation};
 use crate::failure::Failure;
 use crate::guard::guarded;
 use crate::input::{Input, world_of};
-use medial::raster::Mask;
 use medial_io::image::{self, Numbers};
 use medial_io::{Content, Error, Format, ReadOptions};
 use std::path::Path;
@@ -70,20 +69,18 @@ impl Pixels {
     /// Leaves out what has the value for no data.
     fn leave_out_value(&mut self, value: &str) -> Result<(), Failure> {
         let wrong = |what: &str| Failure::Usage(format!("--no-data {value} is no {what}"));
-        let image::Colours { values, are_bands, n_bands, .. } = &mut self.colours;
+        let n_bands = self.colours.n_bands;
         if let Some((numbers, _)) = &self.numbers {
             let number: f64 = value.parse().map_err(|_| wrong("number, as labels have"))?;
-            let same = values.iter_mut().zip(numbers).filter(|(_, other)| **other == number);
-            same.for_each(|(value, _)| *value = [f32::NAN; 3]);
-        } else if *are_bands {
+            let is_it: Vec<bool> = numbers.iter().map(|&other| other == number).collect();
+            self.leave_out(|k, _| is_it[k]);
+        } else if self.colours.are_bands {
             let number: f32 = value.parse().map_err(|_| wrong("number, as bands have"))?;
-            let is_it = |value: &[f32; 3]| value[..*n_bands].iter().all(|&band| band == number);
-            values.iter_mut().filter(|value| is_it(value)).for_each(|value| *value = [f32::NAN; 3]);
+            self.leave_out(|_, value| value[..n_bands].iter().all(|&band| band == number));
         } else {
             let colour = crate::args::colour(value).map_err(|_| wrong("colour, as 000000"))?;
-            let bytes = |value: &[f32; 3]| value.map(|v| (255.0 * v).round() as u8);
-            let is_it = |value: &[f32; 3]| !value[0].is_nan() && bytes(value) == colour;
-            values.iter_mut().filter(|value| is_it(value)).for_each(|value| *value = [f32::NAN; 3]);
+            let bytes = |value: [f32; 3]| value.map(|v| (255.0 * v).round() as u8);
+            self.leave_out(|_, value| !value[0].is_nan() && bytes(value) == colour);
         }
         Ok(())
     }
@@ -103,12 +100,20 @@ impl Pixels {
                 input.name, grid.columns, grid.rows
             )));
         }
-        let has = |mask: &Mask, k: usize| {
-            mask.get((k % columns as usize) as u32, (k / columns as usize) as u32)
-        };
-        let values = self.colours.values.iter_mut().enumerate();
-        values.filter(|(k, _)| !has(&mask, *k)).for_each(|(_, value)| *value = [f32::NAN; 3]);
+        let columns = columns as usize;
+        self.leave_out(|k, _| !mask.get((k % columns) as u32, (k / columns) as u32));
         Ok(())
+    }
+
+    /// Leaves out pixels, by their number and their values.
+    fn leave_out(&mut self, is_out: impl Fn(usize, [f32; 3]) -> bool) {
+        let values = self.colours.values.iter_mut().enumerate();
+        for (k, value) in values.filter(|(k, value)| is_out(*k, **value)) {
+            *value = [f32::NAN; 3];
+            if let Some((numbers, _)) = &mut self.numbers {
+                numbers[k] = f64::NAN;
+            }
+        }
     }
 }
 

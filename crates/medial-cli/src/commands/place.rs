@@ -30,10 +30,40 @@ pub fn box_ring(grid: &Grid, [left, top]: [u32; 2], [right, bottom]: [u32; 2]) -
     corners.map(|(column, row)| grid.corner(column, row)).to_vec()
 }
 
-/// Writes beside a PNG file its world file, and its reference system if there is text for it.
+/// Tells beside a PNG file where it lies, or warns of what was there before and tells it for a picture without a place.
 ///
 /// A picture in no file, as on standard output, has nothing beside it.
-pub fn write_beside(
+pub fn tell_place(
+    picture: Option<&Path>,
+    place: Option<(&Grid, Option<&Crs>)>,
+    quiet: bool,
+) -> Result<(), Failure> {
+    match place {
+        Some((grid, crs)) => write_beside(picture, grid, crs, quiet),
+        None => {
+            warn_of_stale(picture, quiet);
+            Ok(())
+        }
+    }
+}
+
+/// Writes labels, as bytes of TIFF, which tell where they lie if that is known.
+pub fn write_labels(
+    output: Output,
+    bytes: &[u8],
+    is_georeferenced: bool,
+    quiet: bool,
+) -> Result<(), Failure> {
+    let file = output.target().map(Path::to_owned);
+    output.whole(bytes)?;
+    if !is_georeferenced {
+        warn_of_stale(file.as_deref(), quiet);
+    }
+    Ok(())
+}
+
+/// Writes beside a PNG file its world file, and its reference system if there is text for it.
+fn write_beside(
     picture: Option<&Path>,
     grid: &Grid,
     crs: Option<&Crs>,
@@ -60,8 +90,7 @@ pub fn write_beside(
     }
 }
 
-/// Fails if a file that is written besides has no name of its own: it is standard output, or one that comes beside a
-/// picture.
+/// Fails if a file that is written besides has a name of one that comes beside a picture.
 pub fn check_beside(
     results: Option<&Path>,
     format: Format,
@@ -73,10 +102,8 @@ pub fn check_beside(
             let picture = results.filter(|_| format == Format::Png);
             picture.is_some_and(|picture| picture.with_extension(extension) == path)
         };
-        if path.as_os_str() == "-" && option != "--report" && option != "--timings"
-            || ["pgw", "prj"].into_iter().any(is_beside)
-        {
-            return Err(Failure::Usage(format!("{option} needs a file of its own")));
+        if ["pgw", "prj"].into_iter().any(is_beside) {
+            return Err(needs_file(option));
         }
     }
     Ok(())
@@ -85,8 +112,15 @@ pub fn check_beside(
 /// Extensions of the files that labels are written to.
 pub const TIFF: &[&str] = &["tif", "tiff"];
 
-/// Fails if a file has an extension that is none of those of what is written to it.
-pub fn check_extension(option: &str, path: Option<&Path>, known: &[&str]) -> Result<(), Failure> {
+fn needs_file(option: &str) -> Failure {
+    Failure::Usage(format!("{option} needs a file of its own"))
+}
+
+/// Fails if what is written to a file is to go to standard output, or to one with the extension of something else.
+pub fn check_file(option: &str, path: Option<&Path>, known: &[&str]) -> Result<(), Failure> {
+    if path.is_some_and(|path| path.as_os_str() == "-") {
+        return Err(needs_file(option));
+    }
     let extension = path.and_then(Path::extension);
     let is_known =
         |extension: &OsStr| known.iter().any(|known| extension.eq_ignore_ascii_case(known));
@@ -109,7 +143,7 @@ pub fn check_inputs(inputs: &[Option<&Path>]) -> Result<(), Failure> {
 }
 
 /// Says what stands beside an image without a place and gives it one, as an image before it had.
-pub fn warn_of_stale(image: Option<&Path>, quiet: bool) {
+fn warn_of_stale(image: Option<&Path>, quiet: bool) {
     let world = image.and_then(|image| WorldFile::of(image).ok()).and_then(|told| told.world);
     if let Some((name, _)) = world.filter(|_| !quiet) {
         crate::progress::line(&format!(

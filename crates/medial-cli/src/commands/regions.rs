@@ -1,7 +1,7 @@
 //! Regions of colour images, as all commands on them find and choose them.
 
 use super::features::Run;
-use super::means::{Means, Numbers};
+use super::means::{Means, Numbers, colour_of};
 use super::pixels::Pixels;
 use crate::args::{Choice, SegmentMethod, Segmentation};
 use crate::failure::Failure;
@@ -56,7 +56,7 @@ pub fn parted(
     for warning in warnings.iter().filter(|_| !common.run.quiet) {
         crate::progress::line(&format!("warning: {}: {warning}", input.name));
     }
-    let kept = if keeps_colours { values.clone() } else { Vec::new() };
+    let kept = if keeps_colours && !are_bands { values.clone() } else { Vec::new() };
     // Limits are in units of the first band.
     let is_cut = are_bands && args.method == SegmentMethod::Threshold;
     let band: Option<Vec<f32>> = is_cut.then(|| values.iter().map(|value| value[0]).collect());
@@ -73,16 +73,10 @@ pub fn parted(
     .map_err(|error| input.wrong(error))?;
     let extents = beside.map_or(own, |other| other.extents);
     let field = if are_bands && numbers.is_none() { field.stretched(extents) } else { field };
-    let known = |(numbers, are_colours): (Vec<f64>, bool)| {
-        let number = |(k, number)| if field.is_known(k) { number } else { f64::NAN };
-        (numbers.into_iter().enumerate().map(number).collect::<Vec<f64>>(), are_colours)
-    };
-    let numbers = numbers.map(known);
     let colours = match &numbers {
         _ if !keeps_colours => Vec::new(),
         Some((numbers, are_colours)) => {
-            let colours = Numbers { of: Vec::new(), are_colours: *are_colours };
-            numbers.iter().map(|&number| colours.colour(number)).collect()
+            numbers.iter().map(|&number| colour_of(number, *are_colours)).collect()
         }
         None if are_bands => {
             let bands = Means::Bands(n_bands);

@@ -1,8 +1,8 @@
 use super::features::Run;
 use super::means::Means;
 use super::place::{
-    TIFF, box_ring, check_beside, check_extension, check_inputs, is_georeferenced, warn_of_stale,
-    write_beside,
+    TIFF, box_ring, check_beside, check_file, check_inputs, is_georeferenced, tell_place,
+    write_labels,
 };
 use super::records::{Found, POLYGONS, Plan};
 use super::regions::{self, Parted};
@@ -55,8 +55,8 @@ pub fn run(args: &'static SegmentArgs) -> Result<Status, Failure> {
         ("--timings", args.run.run.timings.as_deref()),
     ];
     check_beside(file, format, &others)?;
-    check_extension("--labels", args.labels.as_deref(), TIFF)?;
-    check_extension("--palette", args.palette.as_deref(), &["csv", "gpl"])?;
+    check_file("--labels", args.labels.as_deref(), TIFF)?;
+    check_file("--palette", args.palette.as_deref(), &["csv", "gpl"])?;
     check_inputs(&[Some(&args.input), args.segmentation.mask.as_deref()])?;
     if is_picture && file.is_none() && std::io::stdout().is_terminal() {
         return Err(Failure::Usage("a terminal shows no png; name a file with -o".to_owned()));
@@ -74,13 +74,11 @@ pub fn run(args: &'static SegmentArgs) -> Result<Status, Failure> {
     let parted = regions::parted(segmentation, &args.input, mask, &mut run, false, None)?;
     let Parted { input, crs, means, labels, regions, .. } = parted;
     let grid = *labels.grid();
+    let (is_placed, quiet) = (is_georeferenced(&grid, crs.as_ref()), args.run.run.quiet);
     if let Some(output) = numbers {
         let numbers: Vec<u32> = labels.labels().iter().map(|label| label.wrapping_add(1)).collect();
         let bytes = image::write_labels(&grid, crs.as_ref(), &numbers, 0, input.bytes());
-        timed(&mut run.stages.write, || output.whole(&bytes))?;
-        if !is_georeferenced(&grid, crs.as_ref()) {
-            warn_of_stale(args.labels.as_deref(), args.run.run.quiet);
-        }
+        timed(&mut run.stages.write, || write_labels(output, &bytes, is_placed, quiet))?;
     }
     if let Some(output) = palette {
         let text = palette_text(args, &labels.classes(&regions), &means);
@@ -95,13 +93,7 @@ pub fn run(args: &'static SegmentArgs) -> Result<Status, Failure> {
         let bytes = image::write_colours(grid.columns, grid.rows, &pixels);
         timed(&mut run.stages.write, || {
             Output::create(file)?.whole(&bytes)?;
-            match is_georeferenced(&grid, crs.as_ref()) {
-                true => write_beside(file, &grid, crs.as_ref(), args.run.run.quiet),
-                false => {
-                    warn_of_stale(file, args.run.run.quiet);
-                    Ok(())
-                }
-            }
+            tell_place(file, is_placed.then_some((&grid, crs.as_ref())), quiet)
         })?;
         return run.done(&input.name, regions.len());
     }

@@ -1,6 +1,7 @@
 //! Borders between regions: along pixels, simplified, smoothed, drawn back.
 
 use super::*;
+use medial::geom::DisjointSets;
 
 #[test]
 fn objects_that_meet_at_a_corner_are_polygons_of_their_own() {
@@ -160,8 +161,8 @@ fn rings_that_the_command_makes_are_not_reported_as_reversed() {
 
 /// Components and cycles of the lines of a layer, which meet where their ends are the same.
 fn graph_of(lines: &[Value]) -> (usize, usize) {
-    let mut nodes: BTreeMap<[u64; 2], usize> = BTreeMap::new();
-    let mut ends: Vec<[usize; 2]> = Vec::new();
+    let mut nodes: BTreeMap<[u64; 2], u32> = BTreeMap::new();
+    let mut ends: Vec<[u32; 2]> = Vec::new();
     for feature in lines {
         let geometry = &feature["geometry"];
         let points: Vec<[f64; 2]> = match geometry["type"].as_str().unwrap() {
@@ -169,7 +170,7 @@ fn graph_of(lines: &[Value]) -> (usize, usize) {
             _ => serde_json::from_value(geometry["coordinates"].clone()).unwrap(),
         };
         let mut node = |p: &[f64; 2]| {
-            let n = nodes.len();
+            let n = nodes.len() as u32;
             *nodes.entry(p.map(f64::to_bits)).or_insert(n)
         };
         let pair = [node(&points[0]), node(points.last().unwrap())];
@@ -177,20 +178,11 @@ fn graph_of(lines: &[Value]) -> (usize, usize) {
             ends.push(pair);
         }
     }
-    let mut sets: Vec<usize> = (0..nodes.len()).collect();
-    let mut components = nodes.len();
-    for [a, b] in ends.iter().copied() {
-        let [a, b] = [a, b].map(|mut k| {
-            while sets[k] != k {
-                k = sets[k];
-            }
-            k
-        });
-        if a != b {
-            sets[a] = b;
-            components -= 1;
-        }
+    let mut sets = DisjointSets::new(nodes.len());
+    for &[a, b] in &ends {
+        sets.join(a, b);
     }
+    let components = sets.count();
     (components, ends.len() + components - nodes.len())
 }
 

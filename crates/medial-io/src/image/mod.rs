@@ -21,7 +21,7 @@ mod tiff;
 mod world;
 mod write;
 
-pub use palette::{PaletteColour, palette_gpl, palette_table};
+pub use palette::{PaletteColour, hexadecimal, palette_gpl, palette_table};
 pub use world::{WorldFile, world_file};
 pub use write::{write_colours, write_labels, write_png};
 

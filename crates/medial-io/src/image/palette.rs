@@ -19,11 +19,10 @@ pub struct PaletteColour {
     pub regions: u32,
 }
 
-impl PaletteColour {
-    fn hexadecimal(&self) -> String {
-        let [red, green, blue] = self.colour;
-        format!("#{red:02x}{green:02x}{blue:02x}")
-    }
+/// A colour as text, `#rrggbb`.
+#[must_use]
+pub fn hexadecimal([red, green, blue]: [u8; 3]) -> String {
+    format!("#{red:02x}{green:02x}{blue:02x}")
 }
 
 /// The palette as a table of comma-separated values: `class`, `color` as `#rrggbb`, `mean_1` to `mean_3`, `pixels` and
@@ -32,14 +31,14 @@ impl PaletteColour {
 pub fn palette_table(palette: &[PaletteColour]) -> String {
     let mut text = "class,color,mean_1,mean_2,mean_3,pixels,regions\n".to_owned();
     for colour in palette {
-        let PaletteColour { class, means, n_means, pixels, regions, .. } = colour;
+        let PaletteColour { class, colour, means, n_means, pixels, regions } = colour;
         let means =
             [0, 1, 2].map(|k| if k < *n_means { means[k].to_string() } else { String::new() });
         // Writing to text does not fail.
         let _ = writeln!(
             text,
             "{class},{},{},{pixels},{regions}",
-            colour.hexadecimal(),
+            hexadecimal(*colour),
             means.join(",")
         );
     }

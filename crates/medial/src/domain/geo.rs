@@ -1,12 +1,10 @@
 //! Conversions from and to `geo-types`.
 
-use std::collections::HashMap;
-
 use geo_types::{Coord, LineString, MultiPolygon, Polygon};
 
 use super::area::orientation;
 use super::{Domain, DomainError, Options};
-use crate::geom::Point;
+use crate::geom::{Point, parted};
 
 impl From<Coord<f64>> for Point {
     fn from(c: Coord<f64>) -> Self {
@@ -59,7 +57,7 @@ impl From<&Domain> for MultiPolygon<f64> {
         for walk in domain.walks() {
             let component = walk.component as usize;
             let edges = &domain.edges()[walk.first as usize..(walk.first + walk.len) as usize];
-            for ring in simple_rings(edges.iter().map(|e| e.start)) {
+            for ring in parted(edges.iter().map(|e| e.start).collect()) {
                 let line = LineString::from_iter(ring.iter().map(|&p| Coord::from(p)));
                 // A component has one outer ring, and all others run clockwise.
                 if outers[component].is_none() && orientation(&ring).is_gt() {
@@ -77,28 +75,6 @@ impl From<&Domain> for MultiPolygon<f64> {
 fn rings(polygon: &Polygon<f64>) -> Vec<Vec<Point>> {
     let ring = |line: &LineString<f64>| line.coords().map(|&c| Point::from(c)).collect();
     std::iter::once(polygon.exterior()).chain(polygon.interiors()).map(ring).collect()
-}
-
-/// Cuts a closed walk, which does not cross itself, wherever it passes a point twice.
-fn simple_rings(walk: impl Iterator<Item = Point>) -> Vec<Vec<Point>> {
-    // Adding zero turns -0 into 0.
-    let key = |p: Point| ((p.x + 0.0).to_bits(), (p.y + 0.0).to_bits());
-    let mut open: Vec<Point> = Vec::new();
-    let mut position = HashMap::new();
-    let mut rings = Vec::new();
-    for point in walk {
-        if let Some(&start) = position.get(&key(point)) {
-            let ring: Vec<Point> = open.drain(start..).collect();
-            for &p in &ring {
-                position.remove(&key(p));
-            }
-            rings.push(ring);
-        }
-        position.insert(key(point), open.len());
-        open.push(point);
-    }
-    rings.push(open);
-    rings
 }
 
 #[cfg(test)]

@@ -14,8 +14,11 @@ impl Domain {
     pub(crate) fn touched_edges(&self) -> Option<Vec<(u32, Point)>> {
         let walks = self.walks();
         let is_one = walks.windows(2).all(|pair| pair[0].polygon == pair[1].polygon);
+        if is_one {
+            return None;
+        }
         let rings = Rings::of_walks(self);
-        if is_one || apart(&rings).is_some() {
+        if apart(&rings).is_some() {
             return None;
         }
         // That walks fit one another is known.
